@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use bondline::Turn;
 use clap::{Args, Parser};
 use cli::{Failure, Output};
-use units::{Axis, Density, Dimension, Length, Quantity, Spread};
+use units::{Axis, Density, Length, Spread, positive};
 
 /// Take the adhesive out of a specimen, part its adherends and put a slab between them; or lay up undamaged wood around a slab
 ///
@@ -121,14 +121,8 @@ fn auto_or_length(text: &str) -> Result<AutoOr, String> {
     if text == "auto" {
         return Ok(AutoOr(None));
     }
-    let length = text.parse::<Quantity<Length>>();
-    let length = length.map_err(|error| format!("{error}, or 'auto'"))?;
-    Ok(AutoOr(Some(length.si())))
-}
-
-fn positive<D: Dimension>(text: &str) -> Result<f64, String> {
-    let quantity = text.parse::<Quantity<D>>().and_then(Quantity::positive);
-    quantity.map(Quantity::si).map_err(|e| e.to_string())
+    let length = units::si::<Length>(text).map_err(|error| format!("{error}, or 'auto'"))?;
+    Ok(AutoOr(Some(length)))
 }
 
 fn percent(text: &str) -> Result<f64, String> {

@@ -90,10 +90,7 @@ fn placed<'a>(file: &'a ParticleFile, name: &str) -> Result<Placed<'a>, Failure>
 fn refusal(files: &[ParticleFile], error: &Error) -> Failure {
     let names: Vec<_> = files.iter().map(|f| format!("'{}'", f.name())).collect();
     let said = format!("{}: {error}", names.join(" and "));
-    match error.is_unfit_data() {
-        true => Failure::data(said),
-        false => Failure::usage(said),
-    }
+    Failure::of_input(!error.is_unfit_data(), said)
 }
 
 fn bonded(file: &ParticleFile, arguments: &Arguments, normal: Axis) -> Result<Bond, Failure> {

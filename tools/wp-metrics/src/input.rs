@@ -117,11 +117,7 @@ impl Input {
     }
 
     pub fn failure(&self, error: &metrics::Error) -> Failure {
-        let said = format!("'{}': {error}", self.name);
-        match error.is_usage() {
-            true => Failure::usage(said),
-            false => Failure::data(said),
-        }
+        Failure::of_input(error.is_usage(), format!("'{}': {error}", self.name))
     }
 
     /// The files that a stack is read from: its slices, or its header and data.
@@ -214,10 +210,7 @@ fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<
 }
 
 fn stack_failure(error: voxels::Error) -> Failure {
-    match error.is_usage() {
-        true => Failure::usage(error),
-        false => Failure::data(error),
-    }
+    Failure::of_input(error.is_usage(), error)
 }
 
 fn placed(bits: &BitGrid, voxel_m: f64) -> Placed<'_> {

@@ -168,12 +168,8 @@ fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
     }
 }
 
-/// Other arguments may help (exit 2) or the file is at fault (exit 3).
 fn failure(error: voxels::Error) -> Failure {
-    match error.is_usage() {
-        true => Failure::usage(error),
-        false => Failure::data(error),
-    }
+    Failure::of_input(error.is_usage(), error)
 }
 
 fn read_pages(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<Segmented, Failure> {
