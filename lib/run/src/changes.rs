@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use crate::case::Case;
+use crate::case::{Case, case_text};
 use crate::failure::RunFailure;
-use crate::load;
 
 /// The text of the case file at `path` with `changes` (`key=value`), which parses as a case.
 ///
 /// # Errors
 /// [`RunFailure::Usage`]: a file that cannot be read, is no case or does not become one.
 pub fn changed_case(path: &Path, changes: &[String]) -> Result<String, RunFailure> {
-    let text = changed(&load::case_text(path)?, path, changes)?;
+    let text = changed(&case_text(path)?, path, changes)?;
     Case::parse(&text, path)?;
     Ok(text)
 }

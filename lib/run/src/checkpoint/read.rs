@@ -19,7 +19,7 @@ pub(crate) fn read(
         return Ok(None);
     }
     let bad = |said: String| RunFailure::Data(format!("{}: {said}", path.display()));
-    let file = ParticleFile::open(&path).map_err(|e| RunFailure::Data(e.to_string()))?;
+    let file = ParticleFile::open(&path)?;
     let header = file.header();
     if header.kind != Kind::Checkpoint {
         return Err(bad("it is no checkpoint".into()));
