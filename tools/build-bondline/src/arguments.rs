@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use bondline::Turn;
 use clap::{Args, Parser};
 use cli::{Failure, Output};
 use units::{Axis, Density, Length, Spread, positive};
@@ -82,13 +81,9 @@ pub(crate) struct Wood {
 }
 
 impl Wood {
-    pub(crate) fn turn(&self) -> Turn {
-        match self.turn_top.as_deref() {
-            Some("90") => Turn::Quarter,
-            Some("180") => Turn::Half,
-            Some("270") => Turn::ThreeQuarters,
-            _ => Turn::None,
-        }
+    pub(crate) fn quarters(&self) -> usize {
+        let degrees = self.turn_top.as_deref().and_then(|text| text.parse().ok());
+        degrees.map_or(0, |degrees: usize| degrees / 90)
     }
 
     /// Thickness of the slab asked for, m; `None` for a bonded specimen.

@@ -68,8 +68,8 @@ impl Input {
                 Ok(state)
             }
             Content::Stack { voxels, edge_m, .. } => {
-                let wood = placed(&voxels.wood, *edge_m);
-                let adhesive = placed(&voxels.adhesive, *edge_m);
+                let parts = [&voxels.wood, &voxels.adhesive];
+                let [wood, adhesive] = parts.map(|bits| Placed::at_origin(bits.view(), *edge_m));
                 let specimen = Specimen::new(wood, adhesive).map_err(Failure::data)?;
                 Ok(State::of_specimen(&specimen, normal.unwrap_or(Axis::Y)))
             }
@@ -211,14 +211,6 @@ fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<
 
 fn stack_failure(error: voxels::Error) -> Failure {
     Failure::of_input(error.is_usage(), error)
-}
-
-fn placed(bits: &BitGrid, voxel_m: f64) -> Placed<'_> {
-    Placed {
-        origin_m: [0.0; 3],
-        voxel_m,
-        bits: bits.view(),
-    }
 }
 
 fn record(source: &Source) -> Result<InputRecord, Failure> {

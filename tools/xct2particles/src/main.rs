@@ -110,12 +110,8 @@ fn level(
     edge: &VoxelEdge,
     name: &str,
 ) -> Result<(), Failure> {
-    let placed = |bits| Placed {
-        origin_m: [0.0; 3],
-        voxel_m: edge.metres,
-        bits,
-    };
-    let [wood, adhesive] = [&segmented.wood, &segmented.adhesive].map(|bits| placed(bits.view()));
+    let parts = [&segmented.wood, &segmented.adhesive];
+    let [wood, adhesive] = parts.map(|bits| Placed::at_origin(bits.view(), edge.metres));
     let refused = |why: String| Failure::usage(format!("{name}: --level {normal}: {why}"));
     let specimen = Specimen::new(wood, adhesive).map_err(|why| refused(why.to_string()))?;
     let turned = metrics::level(&specimen, normal).map_err(refused)?;
