@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use cli::Failure;
+use cli::{Failure, InputRecord};
 use units::{Angle, Length};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -114,9 +114,7 @@ fn run(name: &str, arguments: impl FnOnce(&mut Command) -> &mut Command) -> Resu
 
 /// The hash of a bond file's content as it stands in plans.
 pub fn content(path: &Path) -> Result<String, Failure> {
-    let hash = cli::hash_file(path)
-        .map_err(|e| Failure::data(format!("cannot read '{}': {e}", path.display())))?;
-    Ok(format!("{hash:016x}"))
+    InputRecord::of_file(path, path.display().to_string()).map(|record| record.xxh3)
 }
 
 #[cfg(test)]

@@ -99,12 +99,16 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     cli::keep_apart_with_records([], [&arguments.output])?;
     let [nx, ny, nz] = recipe.size;
     let bytes = recipe.memory_bytes().map_err(Failure::usage)?;
-    cli::enough_memory(
-        format_args!("a specimen of {nx} x {ny} x {nz} voxels"),
-        bytes,
-        "a smaller --size",
-        arguments.yes_really,
-    )?;
+    if let Some(short) = machine::shortage(bytes) {
+        let said = format!(
+            "a specimen of {nx} x {ny} x {nz} voxels needs {short}; a smaller --size is needed"
+        );
+        if !arguments.yes_really {
+            let really = "--yes-really goes on all the same";
+            return Err(Failure::usage(format!("{said}; {really}")));
+        }
+        cli::warn(said);
+    }
     let specimen = Specimen::grow(&recipe).map_err(|error| match error {
         RecipeError::Overfull(_) => Failure::failed(error),
         _ => Failure::usage(error),
