@@ -90,8 +90,6 @@ order = 5
         assert!((case.grid.cell.si(1.0) - 2.9e-6).abs() < 1e-18);
         assert_eq!(case.integrator.order, Some(5));
         for (from, to, place, words) in [
-            ("closing_speed", "closing_sped", "12:1: ", "closing_speed"),
-            ("\"1300 cP\"", "\"1300\"", "7:13: ", "Pa s"),
             ("\"1300 cP\"", "1300", "7:13: ", "'1300' has no unit"),
             ("\"1300 cP\"", "1.3", "7:13: ", "'1.3' has no unit"),
             ("\"2.9 um\"", "\"-2.9 um\"", "3:8: ", "greater than zero"),

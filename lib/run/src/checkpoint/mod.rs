@@ -134,70 +134,8 @@ pub(crate) fn where_last(folder: &RunFolder) -> String {
 mod tests {
     use std::fs;
 
-    use physics::{Pieces, StepReport};
-
     use super::*;
     use crate::folder::tests::{by, held};
-
-    #[test]
-    fn a_checkpoint_comes_back_bit_by_bit_and_only_to_its_own_run() {
-        let (place, folder) = held();
-        let clock = Clock {
-            step: 7,
-            time_s: 0.1 + 0.2,
-            travel_m: 1e-6,
-            next_history_s: 0.3,
-            next_snapshot_s: f64::INFINITY,
-            snapshots: 3,
-            last: StepReport {
-                dt_s: 0.1,
-                closing_speed: 1.0,
-                travel_m: 1e-6,
-                pressure_bottom: -0.0,
-                pressure_top: 1e300,
-                lost: u64::MAX,
-                iterations: 7,
-            },
-            row_missing: true,
-        };
-        let saved = Saved(vec![
-            ("a".into(), Array::F64(vec![1.0, -0.0, 1e-300])),
-            ("b".into(), Array::F32(vec![0.1; 5])),
-            ("c".into(), Array::U32(vec![4, 5])),
-        ]);
-        let courant = [(0, 1.0), (5, 0.3)].map(|(after_step, cfl)| Courant { after_step, cfl });
-        let history = Extent {
-            bytes: 1 << 60,
-            hash: u64::MAX,
-        };
-        let whole = |array: &Array| Saving::Whole(array.clone());
-        // An array in pieces is the same in the file.
-        let numbers: Pieces<f32> =
-            Box::new(|take| [2, 0, 3].iter().for_each(|&n| take(&[0.1; 3][..n])));
-        let saving = vec![
-            ("a".into(), whole(&saved.0[0].1)),
-            ("b".into(), Saving::F32(numbers)),
-            ("c".into(), whole(&saved.0[2].1)),
-        ];
-        let checkpoint = Checkpoint {
-            clock,
-            courant: courant.to_vec(),
-            history,
-            saved: saving,
-        };
-        let of = |identity: &str| Origin {
-            identity: identity.into(),
-            format: "explicit 1, run 1".into(),
-            by: by("0.1.0"),
-        };
-        assert_eq!(read(place.path(), &of("x"), &String::new).unwrap(), None);
-        write(&folder, &of("x"), checkpoint).unwrap();
-        let found = read(place.path(), &of("x"), &String::new).unwrap().unwrap();
-        assert_eq!((found.clock, found.courant), (clock, courant.to_vec()));
-        assert_eq!((found.history, found.saved), (history, saved));
-        let said = read(place.path(), &of("y"), &String::new).unwrap_err();
-        assert!(said.to_string().contains("another case"), "{said}");
-    }
 
     /// It was said to have no array of some name.
     #[test]
