@@ -17,7 +17,7 @@ use crate::earlier_run::{self, Mode};
 use crate::ends::{Ahead, End};
 use crate::expected_error;
 use crate::failure::{RunFailure, refused};
-use crate::folder::{CHECKPOINT, HISTORY, RunFolder, SUMMARY};
+use crate::folder::{CHECKPOINT, FINAL, HISTORY, RunFolder, SUMMARY};
 use crate::forecast::Forecast;
 use crate::history::History;
 use crate::last_state::conclude;
@@ -191,7 +191,7 @@ impl Request {
             conclude(&self.setup, scheme, outcome, watch, account, &rows)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
         if end != End::Interrupted {
-            writer.write_final(&clock, &liquid, &displacements)?;
+            writer.write(FINAL, &clock, &liquid, &displacements)?;
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))

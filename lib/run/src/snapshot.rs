@@ -105,17 +105,8 @@ impl<'a> SnapshotWriter<'a> {
         Ok(())
     }
 
-    /// Writes `final.mpts` of `liquid`, in the axes of the file, and bodies so displaced (m).
-    pub(crate) fn write_final(
-        &self,
-        clock: &Clock,
-        liquid: &LiquidState,
-        displacements: &[[f64; 3]],
-    ) -> Result<(), RunFailure> {
-        self.write(FINAL, clock, liquid, displacements)
-    }
-
-    fn write(
+    /// Writes `name` of `liquid`, in the axes of the file, and bodies so displaced (m).
+    pub(crate) fn write(
         &self,
         name: &str,
         clock: &Clock,

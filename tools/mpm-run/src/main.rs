@@ -94,9 +94,8 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         let plan = request.explain()?;
         return cli::Output::Stdout.write(|out| write!(out, "{plan}"));
     }
-    let Some(folder) = arguments.output else {
-        return Err(Failure::usage("a run folder is needed: -o RUNDIR"));
-    };
+    // Without a plan or the reference it is required.
+    let folder = arguments.output.unwrap_or_default();
     if folder.as_os_str() == "-" {
         return Err(Failure::usage(
             "a run is a folder of files and cannot go to standard output: -o RUNDIR is needed",
