@@ -4,7 +4,7 @@ use bondline::{Bond, Error, Opening, Placed, Specimen, build};
 use particle_file::BitGrid;
 use units::Axis;
 
-const VOXEL: f64 = 1.45e-6;
+use crate::{VOXEL, near, opening, placed, refused};
 
 /// Layers along the normal: comb-shaped wood up to 20 and from 31, adhesive in the gap and in
 /// the grooves of the bottom comb down to 14, one speck at 38.
@@ -57,29 +57,6 @@ impl Stack {
     fn refuses(&self, opening: &Opening, said: &str) {
         refused(self.build(opening), said);
     }
-}
-
-#[track_caller]
-fn refused(found: Result<Bond, Error>, said: &str) {
-    let error = found.unwrap_err().to_string();
-    assert!(error.contains(said), "{error}");
-}
-
-fn placed(grid: &BitGrid) -> Placed<'_> {
-    Placed::at_origin(grid.view(), VOXEL)
-}
-
-fn opening(normal: Axis) -> Opening {
-    Opening {
-        normal,
-        voxels_per_cell: 2,
-        gap_m: None,
-        tolerance: 0.05,
-    }
-}
-
-fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() < 1e-6 * VOXEL
 }
 
 #[test]

@@ -1,21 +1,14 @@
 //! Bonds of undamaged wood whose answer is counted by hand.
 
-use bondline::{Bond, Error, Layup, Opening, Pieces, Placed, lay_up};
+use bondline::{Bond, Error, Layup, Pieces, Placed, lay_up};
 use particle_file::BitGrid;
 use units::Axis;
 
-const VOXEL: f64 = 1.45e-6;
-
-const OPENING: Opening = Opening {
-    normal: Axis::Y,
-    voxels_per_cell: 2,
-    gap_m: None,
-    tolerance: 0.05,
-};
+use crate::{VOXEL, near, opening, placed, refused};
 
 fn layup() -> Layup {
     Layup {
-        opening: OPENING,
+        opening: opening(Axis::Y),
         slab_m: 4.0 * VOXEL,
         quarters: 0,
         crop: false,
@@ -23,23 +16,9 @@ fn layup() -> Layup {
     }
 }
 
-fn placed(grid: &BitGrid) -> Placed<'_> {
-    Placed::at_origin(grid.view(), VOXEL)
-}
-
 fn two(bottom: &BitGrid, top: &BitGrid, layup: &Layup) -> Result<Bond, Error> {
     let (bottom, top) = (placed(bottom), placed(top));
     lay_up(&Pieces::Two { bottom, top }, layup)
-}
-
-#[track_caller]
-fn refused(found: Result<Bond, Error>, said: &str) {
-    let error = found.unwrap_err().to_string();
-    assert!(error.contains(said), "{error}");
-}
-
-fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() < 1e-6 * VOXEL
 }
 
 /// Grooved along z, 20 layers, with air above the bottom piece and below the top one.
@@ -124,7 +103,7 @@ fn turning_moves_each_voxel_where_a_right_handed_turn_takes_it() {
         let top = BitGrid::from_fn([6, 6, 6], |x, y, z| (x + 2 * y + 3 * z) % 5 < 3);
         let bottom = BitGrid::from_fn([6, 6, 6], |x, y, z| (x * y + z) % 3 < 2);
         let whole = Layup {
-            opening: Opening { normal, ..OPENING },
+            opening: opening(normal),
             quarters: 4,
             slab_m: 2.0 * VOXEL,
             ..layup()
