@@ -61,13 +61,32 @@ pub(crate) struct Checkpoint<S = Saved> {
     pub(crate) saved: S,
 }
 
+/// The numbers of a clock as a checkpoint has them: its own, and those of its last step.
+fn numbers(clock: &mut Clock) -> ([&mut f64; 4], [&mut f64; 5]) {
+    let own = [
+        &mut clock.time_s,
+        &mut clock.travel_m,
+        &mut clock.next_history_s,
+        &mut clock.next_snapshot_s,
+    ];
+    let last = &mut clock.last;
+    let of_step = [
+        &mut last.dt_s,
+        &mut last.closing_speed,
+        &mut last.travel_m,
+        &mut last.pressure_bottom,
+        &mut last.pressure_top,
+    ];
+    (own, of_step)
+}
+
 /// Writes the run folder's checkpoint, replacing the one before. What it counts on, history and
 /// snapshots, must be on the disk by then.
 pub(crate) fn write(
     folder: &RunFolder,
     origin: &Origin,
     Checkpoint {
-        clock,
+        mut clock,
         courant,
         history,
         saved,
@@ -84,19 +103,8 @@ pub(crate) fn write(
     header.set_attribute(HISTORY_HASH, history.hash);
     header.set_attribute(LOST, clock.last.lost);
     header.set_attribute(ITERATIONS, clock.last.iterations);
-    let times = [
-        clock.time_s,
-        clock.travel_m,
-        clock.next_history_s,
-        clock.next_snapshot_s,
-    ];
-    let last = [
-        clock.last.dt_s,
-        clock.last.closing_speed,
-        clock.last.travel_m,
-        clock.last.pressure_bottom,
-        clock.last.pressure_top,
-    ];
+    let (times, last) = numbers(&mut clock);
+    let (times, last) = (times.map(|x| *x), last.map(|x| *x));
     let courant: Vec<f64> = (courant.iter())
         .flat_map(|part| [part.after_step as f64, part.cfl])
         .collect();
