@@ -59,32 +59,25 @@ impl Bench {
 
     /// Runs the tool in the folder with the words of `line`.
     pub fn run(&self, line: &str) -> Ended {
-        self.run_on(Stdio::null(), line)
+        let mut tool = Command::new(self.tool);
+        self.ended(tool.args(line.split_whitespace()), line)
     }
 
-    pub fn run_on(&self, stdin: impl Into<Stdio>, line: &str) -> Ended {
-        let ended = Command::new(self.tool)
-            .args(line.split_whitespace())
-            .current_dir(self.folder.path())
-            .stdin(stdin)
-            .output()
-            .unwrap();
+    /// Runs a line of a shell in the folder, in which the tool is `$TOOL`.
+    pub fn shell(&self, line: &str) -> Ended {
+        let mut shell = Command::new("sh");
+        self.ended(shell.args(["-c", line]).env("TOOL", self.tool), line)
+    }
+
+    fn ended(&self, command: &mut Command, line: &str) -> Ended {
+        let command = command.current_dir(self.folder.path());
+        let ended = command.stdin(Stdio::null()).output().unwrap();
         Ended {
             line: line.to_owned(),
             status: ended.status.code(),
             stdout: ended.stdout,
             said: String::from_utf8_lossy(&ended.stderr).into_owned(),
         }
-    }
-
-    /// The same with a file of the folder in a pipe.
-    pub fn run_piped(&self, name: &str, line: &str) -> Ended {
-        let mut cat = Command::new("cat");
-        let cat = cat.arg(self.path(name)).stdout(Stdio::piped());
-        let mut cat = cat.spawn().unwrap();
-        let ended = self.run_on(cat.stdout.take().unwrap(), line);
-        cat.wait().unwrap();
-        ended
     }
 }
 

@@ -2,7 +2,7 @@
 //! (docs/results/README.md#what-the-acer-volumes-are). They are not in the repository, so that these
 //! tests are ignored; `make test` runs them where the folder is present.
 
-use crate::workbench::{IMPLICIT, METHODS, Table, Workbench, root};
+use crate::workbench::{IMPLICIT, METHODS, Workbench, root};
 
 /// The tool's line on a file of the folder of shared data beside the repository.
 fn converted(name: &str, more: &str) -> String {
@@ -11,32 +11,6 @@ fn converted(name: &str, more: &str) -> String {
         "xct2particles '{}' -q --voxel 1.45um {more}",
         stack.display()
     )
-}
-
-/// The reference numbers of bondline-acer-240.json about y = 156 voxels, by an independent
-/// program: all their four decimals.
-#[test]
-#[ignore = "needs the shared volumes, which are not in the repository"]
-fn shared_data_has_the_known_penetration() {
-    let stack = converted("bondline-acer-240.tif", "-o -");
-    let bench = Workbench::new();
-    let table = Table::new(&bench.done(&format!(
-        "{stack} | wp-metrics - -q --reference plane=226.2um"
-    )));
-    let (sides, depths) = (["bottom", "top", "total"], table.column("wp_um"));
-    let found = [depths[2], depths[1], depths[0], table.last("ep_um")];
-    println!("WP total, top, bottom, EP (um): {found:?}");
-    assert!(
-        table
-            .rows
-            .iter()
-            .zip(sides)
-            .all(|(row, side)| row[1] == side)
-    );
-    for (found, known) in found.iter().zip([17.1586, 16.7128, 17.5810, 40.6666]) {
-        assert!((found - known).abs() <= 0.5e-4, "{found} {known}");
-    }
-    assert_eq!(table.rows[2][10], "1615446");
 }
 
 /// Short runs end sound, without liquid in voids that no path connects to the bond: of a crop of the crop by both schemes, of

@@ -7,25 +7,15 @@ use crate::placed::{corner, layers};
 use crate::slab;
 use crate::{BondLine, Error, Face, Placed, Specimen, find, severed};
 
-/// Where to split the wood.
+/// How adherends are parted and a slab is put between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Plane {
-    /// Midway between the bond surfaces that [`find`] finds.
-    Auto,
-    /// At this coordinate (m), rounded to the nearest face between voxels.
-    At(f64),
-}
-
-/// How to build a bond.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct Opening {
     /// Axis across the bond.
     pub normal: Axis,
-    /// The bond plane.
-    pub plane: Plane,
     /// Voxels along the edge of a cell of the later grid, at least one.
     pub voxels_per_cell: usize,
-    /// How far to move the top adherend away (m); `None`: by the thickness of the slab.
+    /// How far to move the top adherend away from where it was, or touches the other (m); `None`: as little as leaves
+    /// room for the slab.
     pub gap_m: Option<f64>,
     /// Largest relative change of the adhesive volume by rounding the slab to whole cells.
     pub tolerance: f64,
@@ -104,29 +94,30 @@ impl Bond {
     }
 }
 
-/// Builds the bond line before pressing.
+/// Builds the bond line before pressing: the wood is split at `plane_m`, rounded to the nearest face between voxels, or midway between
+/// the bond surfaces that [`find`] finds.
 ///
 /// Every wood voxel of the (trimmed) specimen is kept, and belongs to the adherend on its
 /// side of the plane.
 ///
 /// # Errors
 /// No adhesive, no bond line, no wood on a side, a plane outside, and those of the slab and the gap.
-pub fn build(specimen: &Specimen, options: &Options) -> Result<Bond, Error> {
-    let (normal, wood) = (options.normal, specimen.wood());
+pub fn build(specimen: &Specimen, plane_m: Option<f64>, opening: &Opening) -> Result<Bond, Error> {
+    let (normal, wood) = (opening.normal, specimen.wood());
     let n = normal.index();
-    let (kept, trimmed) = whole_cells(wood.bits.dims(), normal, options.voxels_per_cell);
+    let (kept, trimmed) = whole_cells(wood.bits.dims(), opening);
     let adhesive_in = corner(specimen.adhesive().bits, kept).count() as f64;
     if adhesive_in == 0.0 {
         return Err(Error::no_adhesive());
     }
-    let (plane, found) = match options.plane {
-        Plane::Auto => {
+    let (plane, found) = match plane_m {
+        None => {
             let line = find(specimen, normal)?;
             // A middle inside a voxel goes to the face below it: nothing but adhesive or air
             // lies between the two surfaces on average.
             (line.middle() as usize, Some(line))
         }
-        Plane::At(plane_m) => (layer_at(wood, plane_m, normal)?, None),
+        Some(plane_m) => (layer_at(wood, plane_m, normal)?, None),
     };
     let bits = corner(wood.bits, kept);
     let [bottom, top] = [0..plane, plane..kept[n]].map(|part| layers(bits.view(), n, part));
@@ -152,12 +143,10 @@ pub fn build(specimen: &Specimen, options: &Options) -> Result<Bond, Error> {
         room_m: f64::INFINITY,
         adhesive_in,
     };
-    let (per_cell, tolerance) = (options.voxels_per_cell, options.tolerance);
-    let bond = closed.opened(normal, per_cell, tolerance, options.gap_m)?;
     Ok(Bond {
         trimmed,
         found,
-        ..bond
+        ..closed.opened(opening)?
     })
 }
 
@@ -184,19 +173,19 @@ pub(crate) struct Closed {
 }
 
 impl Closed {
-    /// Moves the top adherend away, by default as little as leaves room, and puts the slab between.
-    pub(crate) fn opened(
-        self,
-        normal: Axis,
-        voxels_per_cell: usize,
-        tolerance: f64,
-        gap_m: Option<f64>,
-    ) -> Result<Bond, Error> {
-        let (n, voxel_m, adhesive_in) = (normal.index(), self.voxel_m, self.adhesive_in);
-        let cell_m = voxels_per_cell as f64 * voxel_m;
+    /// Moves the top adherend away and puts the slab between.
+    pub(crate) fn opened(self, opening: &Opening) -> Result<Bond, Error> {
+        let (n, voxel_m, adhesive_in) = (opening.normal.index(), self.voxel_m, self.adhesive_in);
+        let cell_m = opening.voxels_per_cell as f64 * voxel_m;
         let mut dims = self.bottom.dims();
         let area: u64 = (0..3).filter(|&a| a != n).map(|a| dims[a] as u64).product();
-        let slab_cells = slab::cells(adhesive_in, area, voxels_per_cell, tolerance, cell_m)?;
+        let slab_cells = slab::cells(
+            adhesive_in,
+            area,
+            opening.voxels_per_cell,
+            opening.tolerance,
+            cell_m,
+        )?;
         let slab_m = slab_cells as f64 * cell_m;
         if slab_m > self.room_m {
             return Err(Error::new(format!(
@@ -212,7 +201,7 @@ impl Closed {
         };
         let place = |layer: usize| self.origin_m[n] + layer as f64 * voxel_m;
         let into_one_another = (-self.free[0] - self.free[1]).max(0);
-        let gap_m = gap_m.unwrap_or(slab_m + into_one_another as f64 * voxel_m);
+        let gap_m = (opening.gap_m).unwrap_or(slab_m + into_one_another as f64 * voxel_m);
         let plane_m = place(self.plane);
         let free_m = self.free.map(|layers| layers as f64 * voxel_m);
         let slab_low_m = slab::low_face(plane_m, gap_m, slab_m, free_m, voxel_m)?;
@@ -255,14 +244,10 @@ impl Closed {
 
 /// Dimensions cut to whole cells across the bond, and what was cut. A stack thinner than a
 /// cell (plane strain) stays.
-pub(crate) fn whole_cells(
-    dims: [usize; 3],
-    normal: Axis,
-    per_cell: usize,
-) -> ([usize; 3], [usize; 3]) {
-    let mut kept = dims;
+pub(crate) fn whole_cells(dims: [usize; 3], opening: &Opening) -> ([usize; 3], [usize; 3]) {
+    let (mut kept, per_cell) = (dims, opening.voxels_per_cell);
     for (a, d) in kept.iter_mut().enumerate() {
-        if a != normal.index() && *d > per_cell {
+        if a != opening.normal.index() && *d > per_cell {
             *d -= *d % per_cell;
         }
     }

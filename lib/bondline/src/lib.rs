@@ -18,11 +18,11 @@ mod plane;
 mod slab;
 mod wood;
 
-pub use build::{Bond, Options, Plane, build};
+pub use build::{Bond, Opening, build};
 pub use cut::{doubt, severed};
 pub use error::Error;
 pub use faces::Face;
 pub use open::open_voids;
 pub use placed::{Placed, Specimen};
 pub use plane::{BondLine, find, surface};
-pub use wood::{Layup, Pieces, Turn, lay_up};
+pub use wood::{Layup, Pieces, lay_up};

@@ -28,6 +28,15 @@ impl<'a> Placed<'a> {
         }
     }
 
+    /// Voxels of this edge (m) with their low corner at the origin.
+    pub fn at_origin(bits: BitsRef<'a>, voxel_m: f64) -> Self {
+        Self {
+            origin_m: [0.0; 3],
+            voxel_m,
+            bits,
+        }
+    }
+
     /// High corner, m.
     pub fn max_m(&self) -> [f64; 3] {
         let dims = self.bits.dims();

@@ -6,7 +6,7 @@ use units::Axis;
 use crate::build::{Closed, layer_at, whole_cells};
 use crate::faces::{Facing, across, air, depths, describe, without_islands};
 use crate::placed::{corner, layers};
-use crate::{Bond, Error, Placed};
+use crate::{Bond, Error, Opening, Placed};
 
 /// What the adherends are made of.
 #[derive(Clone, Copy, Debug)]
@@ -22,35 +22,15 @@ pub enum Pieces<'a> {
     },
 }
 
-/// By how much the top piece is turned about the bond normal, right-handed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
-    /// Not at all: grain along grain.
-    None,
-    /// A quarter: cross-laminated, as in plywood.
-    Quarter,
-    /// A half.
-    Half,
-    /// Three quarters.
-    ThreeQuarters,
-}
-
 /// How to lay up undamaged wood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layup {
-    /// Axis across the bond.
-    pub normal: Axis,
+    /// How far and how well the slab is to fit.
+    pub opening: Opening,
     /// Adhesive volume over bond area, m.
     pub slab_m: f64,
-    /// Voxels along the edge of a cell of the later grid, at least one.
-    pub voxels_per_cell: usize,
-    /// How far the top piece is moved away from where the two touch (m); `None`: as little as
-    /// leaves room for the slab.
-    pub gap_m: Option<f64>,
-    /// Largest relative change of the adhesive volume by rounding the slab to whole cells.
-    pub tolerance: f64,
-    /// How the top piece lies on the bottom one.
-    pub turn: Turn,
+    /// Quarter turns of the top piece about the bond normal, right-handed: one as in plywood.
+    pub quarters: usize,
     /// Whether pieces of unequal cross-section are cropped to what they share, from their low
     /// corners; else they are refused.
     pub crop: bool,
@@ -68,10 +48,14 @@ pub struct Layup {
 /// A plane outside; pieces of other voxels, of unequal width or without wood, which never meet or hold less than the slab; and
 /// those of the slab and the gap.
 pub fn lay_up(pieces: &Pieces, layup: &Layup) -> Result<Bond, Error> {
-    let (n, normal) = (layup.normal.index(), layup.normal);
-    let (origin_m, voxel_m, bottom, top) = parts(pieces, layup)?;
-    let (bottom, top) = fitted(bottom, turned(&top, normal, layup.turn), layup)?;
-    let (kept, trimmed) = whole_cells(bottom.dims(), normal, layup.voxels_per_cell);
+    let normal = layup.opening.normal;
+    let n = normal.index();
+    let (origin_m, voxel_m, bottom, mut top) = parts(pieces, normal)?;
+    for _ in 0..layup.quarters {
+        top = turned(&top, normal);
+    }
+    let (bottom, top) = fitted(bottom, top, layup)?;
+    let (kept, trimmed) = whole_cells(bottom.dims(), &layup.opening);
     let face = |piece: &BitGrid, facing, name| {
         let mut dims = kept;
         dims[n] = piece.dims()[n];
@@ -100,21 +84,19 @@ pub fn lay_up(pieces: &Pieces, layup: &Layup) -> Result<Bond, Error> {
         room_m: void_m - (height - touch) as f64 * voxel_m,
         adhesive_in: layup.slab_m / voxel_m * area as f64,
     };
-    let (per_cell, tolerance) = (layup.voxels_per_cell, layup.tolerance);
-    let bond = closed.opened(normal, per_cell, tolerance, layup.gap_m)?;
     Ok(Bond {
         trimmed,
         faces: Some([low, high]),
-        ..bond
+        ..closed.opened(&layup.opening)?
     })
 }
 
 /// Low corner, voxel edge and wood of the bottom and the top piece.
-fn parts(pieces: &Pieces, layup: &Layup) -> Result<([f64; 3], f64, BitGrid, BitGrid), Error> {
-    let n = layup.normal.index();
+fn parts(pieces: &Pieces, normal: Axis) -> Result<([f64; 3], f64, BitGrid, BitGrid), Error> {
+    let n = normal.index();
     match *pieces {
         Pieces::Cut(wood, plane_m) => {
-            let plane = layer_at(wood, plane_m, layup.normal)?;
+            let plane = layer_at(wood, plane_m, normal)?;
             let above = plane..wood.bits.dims()[n];
             let [bottom, top] = [0..plane, above].map(|part| layers(wood.bits, n, part));
             Ok((wood.origin_m, wood.voxel_m, bottom, top))
@@ -135,30 +117,22 @@ fn parts(pieces: &Pieces, layup: &Layup) -> Result<([f64; 3], f64, BitGrid, BitG
     }
 }
 
-/// `bits` turned about `normal`, right-handed: a quarter takes the first axis of [`across`] to
-/// the second.
-fn turned(bits: &BitGrid, normal: Axis, turn: Turn) -> BitGrid {
+/// `bits` turned about `normal` by a quarter, right-handed: it takes the first axis of [`across`] to the second.
+fn turned(bits: &BitGrid, normal: Axis) -> BitGrid {
     let [a, b] = across(normal);
     let from = bits.dims();
     let mut dims = from;
-    if matches!(turn, Turn::Quarter | Turn::ThreeQuarters) {
-        dims.swap(a, b);
-    }
+    dims.swap(a, b);
     BitGrid::from_fn(dims, |x, y, z| {
         let at = [x, y, z];
         let mut old = at;
-        (old[a], old[b]) = match turn {
-            Turn::None => (at[a], at[b]),
-            Turn::Quarter => (at[b], from[b] - 1 - at[a]),
-            Turn::Half => (from[a] - 1 - at[a], from[b] - 1 - at[b]),
-            Turn::ThreeQuarters => (from[a] - 1 - at[b], at[a]),
-        };
+        (old[a], old[b]) = (at[b], from[b] - 1 - at[a]);
         bits.get(old[0], old[1], old[2])
     })
 }
 
 fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitGrid), Error> {
-    let [a, b] = across(layup.normal);
+    let [a, b] = across(layup.opening.normal);
     let [low, high] = [&bottom, &top].map(|piece| [piece.dims()[a], piece.dims()[b]]);
     if low == high {
         return Ok((bottom, top));
@@ -182,13 +156,13 @@ fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitG
 /// A piece without islands, if they are to go, and without the air before its face; `None`
 /// without wood.
 fn cleaned(piece: BitGrid, layup: &Layup, facing: Facing) -> Option<BitGrid> {
-    let piece = trimmed(piece, layup.normal, facing)?;
+    let piece = trimmed(piece, layup.opening.normal, facing)?;
     if !layup.drop_islands {
         return Some(piece);
     }
-    let level = describe(piece.view(), layup.normal, facing).level;
-    let piece = without_islands(piece, layup.normal, facing, level);
-    trimmed(piece, layup.normal, facing)
+    let level = describe(piece.view(), layup.opening.normal, facing).level;
+    let piece = without_islands(piece, layup.opening.normal, facing, level);
+    trimmed(piece, layup.opening.normal, facing)
 }
 
 fn trimmed(piece: BitGrid, normal: Axis, facing: Facing) -> Option<BitGrid> {

@@ -51,6 +51,16 @@ impl Failure {
         Self::new(Status::Data, message)
     }
 
+    /// Of input that other arguments would help (exit 2), or that is itself at fault (exit 3).
+    pub fn of_input(is_usage: bool, message: impl fmt::Display) -> Self {
+        let status = if is_usage {
+            Status::Usage
+        } else {
+            Status::Data
+        };
+        Self::new(status, message)
+    }
+
     /// A failed write to `target`: a closed pipe is a quiet end, all else exit 1.
     pub fn write(target: impl fmt::Display, error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {

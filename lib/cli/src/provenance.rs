@@ -85,9 +85,11 @@ fn is_record(path: &Path) -> bool {
 }
 
 impl InputRecord {
-    /// Hashes the file at `path`.
-    pub fn of_file(path: &Path) -> io::Result<Self> {
-        Ok(Self::new(path.display().to_string(), hash_file(path)?))
+    /// Hashes the file at `path`, which the user named so; one that cannot be read is exit 3.
+    pub fn of_file(path: &Path, name: String) -> Result<Self, Failure> {
+        let hash = File::open(path).and_then(hash_reader);
+        let hash = hash.map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))?;
+        Ok(Self::new(name, hash))
     }
 
     /// A record from a hash computed while the input was read anyway.
@@ -99,19 +101,9 @@ impl InputRecord {
     }
 }
 
-/// XXH3-64 of a file's content.
-pub fn hash_file(path: &Path) -> io::Result<u64> {
-    hash_reader(File::open(path)?)
-}
-
 /// XXH3-64 of all that `reader` gives.
-pub fn hash_reader(mut reader: impl Read) -> io::Result<u64> {
+pub fn hash_reader(reader: impl Read) -> io::Result<u64> {
     let mut hasher = Xxh3Default::new();
-    let mut buffer = vec![0_u8; 1 << 20];
-    loop {
-        match reader.read(&mut buffer)? {
-            0 => return Ok(hasher.digest()),
-            n => hasher.update(&buffer[..n]),
-        }
-    }
+    io::copy(&mut BufReader::with_capacity(1 << 20, reader), &mut hasher)?;
+    Ok(hasher.digest())
 }

@@ -56,7 +56,7 @@ pub(crate) fn catch_file_limit() {
 }
 
 /// From now on an allocation that fails, which has said so and aborts, ends the process with exit 1 and no
-/// core file. What is known to be large is refused before it is begun ([`crate::enough_memory`]); this is
+/// core file. What is known to be large is refused before it is begun (`machine::shortage`); this is
 /// for what is not foreseen.
 pub(crate) fn catch_abort() {
     let always = Arc::new(AtomicBool::new(true));

@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use crate::case::Case;
+use crate::case::{Case, case_text};
 use crate::failure::RunFailure;
-use crate::load;
 
 /// The text of the case file at `path` with `changes` (`key=value`), which parses as a case.
 ///
 /// # Errors
 /// [`RunFailure::Usage`]: a file that cannot be read, is no case or does not become one.
 pub fn changed_case(path: &Path, changes: &[String]) -> Result<String, RunFailure> {
-    let text = changed(&load::case_text(path)?, path, changes)?;
+    let text = changed(&case_text(path)?, path, changes)?;
     Case::parse(&text, path)?;
     Ok(text)
 }
@@ -83,42 +82,5 @@ fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Val
                 .ok_or_else(|| format!("'{part}' is no index of an array of {length}"))
         }
         _ => Err(format!("nothing can be set below '{part}'")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_can_be_changed_from_the_command_line() {
-        let original = "[grid]\ncell = \"2.9 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n";
-        let set = |original: &str, changes: &[&str]| {
-            let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
-            let text = changed(original, Path::new("c"), &changes)?;
-            Case::parse(&text, Path::new("c"))
-        };
-        let changes = [
-            "grid.cell=1.45 um",
-            "integrator.cfl=0.25",
-            "grid.dimensions=2",
-            "clamp.closing_speed=\"1 m/s\"",
-        ];
-        let case = set(original, &changes).unwrap();
-        assert!((case.grid.cell.si(1.0) - 1.45e-6).abs() < 1e-18);
-        assert_eq!((case.integrator.cfl, case.grid.dimensions), (Some(0.25), 2));
-        assert!(case.clamp.is_some());
-        let body = format!(
-            "{original}[[body]]\nmaterial = \"rigid\"\nbox = {{ min = [\"0 m\", \"0 m\", \"0 m\"], max = [\"1 m\", \"1 m\", \"1 m\"] }}\n"
-        );
-        let case = set(&body, &["body.0.box.min.1=0.5 m"]).unwrap();
-        assert_eq!(case.body[0].corners.min[1].si(), 0.5);
-        for absent in ["body.1.box.min.1=0.5 m", "body.0.box.min.3=0.5 m"] {
-            assert!(set(&body, &[absent]).is_err());
-        }
-        assert!(set(original, &["nonsense"]).is_err());
-        let said = set(original, &["grid.cel=1"]).unwrap_err().to_string();
-        assert!(said.starts_with("--set grid.cel=1: "), "{said}");
-        assert!(said.contains("`cell`"), "{said}");
     }
 }

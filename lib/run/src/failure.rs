@@ -36,6 +36,12 @@ impl RunFailure {
     }
 }
 
+impl From<particle_file::Error> for RunFailure {
+    fn from(error: particle_file::Error) -> Self {
+        Self::Data(error.to_string())
+    }
+}
+
 /// Refuses a case with a sentence.
 pub(crate) fn refused<T>(said: impl Into<String>) -> Result<T, RunFailure> {
     Err(RunFailure::Usage(said.into()))

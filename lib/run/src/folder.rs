@@ -257,20 +257,6 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_folder_is_held_once_and_found_again_by_any_version() {
-        let (place, first) = held();
-        for taken in [
-            RunFolder::find(place.path(), &by("1")).map(|_| ()),
-            RunFolder::make(place.path(), &by("1")).map(|_| ()),
-        ] {
-            let said = taken.unwrap_err().to_string();
-            assert!(said.contains("another run is writing"), "{said}");
-        }
-        drop(first);
-        assert!(RunFolder::find(place.path(), &by("2")).unwrap().is_some());
-    }
-
-    #[test]
     fn a_folder_without_locks_is_used_with_a_warning() {
         let (place, mut folder) = held();
         assert_eq!(folder.warning(), None);

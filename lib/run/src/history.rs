@@ -1,7 +1,7 @@
 //! `history.csv`: one row per interval, each written at once.
 
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 
 use physics::{Diagnostics, Scene};
@@ -185,17 +185,9 @@ pub(crate) fn wp_at(text: &str, time_s: f64) -> Option<f64> {
 /// Hashes the first `bytes` of a file, or all of it if it is shorter; how many there were.
 fn hash_start(file: &mut File, bytes: u64) -> io::Result<(u64, Xxh3Default)> {
     let mut hash = Xxh3Default::new();
-    let (mut start, mut read) = (file.take(bytes), 0);
-    let mut buffer = vec![0; 1 << 16];
-    loop {
-        match start.read(&mut buffer)? {
-            0 => return Ok((read, hash)),
-            n => {
-                hash.update(&buffer[..n]);
-                read += n as u64;
-            }
-        }
-    }
+    let mut start = BufReader::with_capacity(1 << 16, file.take(bytes));
+    let read = io::copy(&mut start, &mut hash)?;
+    Ok((read, hash))
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ mod history;
 mod invariants;
 mod last_state;
 mod left_out;
-mod load;
+mod on_terminal;
 mod request;
 mod resolve;
 mod resolved;

@@ -8,7 +8,7 @@ use physics::{Regime, Scheme};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::bond_measures;
-use crate::case::Case;
+use crate::case::{Case, case_text};
 use crate::changes::changed;
 use crate::checkpoint::{self, Checkpoint, Origin};
 use crate::clock::Clock;
@@ -17,12 +17,11 @@ use crate::earlier_run::{self, Mode};
 use crate::ends::{Ahead, End};
 use crate::expected_error;
 use crate::failure::{RunFailure, refused};
-use crate::folder::{CHECKPOINT, HISTORY, RunFolder, SUMMARY};
+use crate::folder::{CHECKPOINT, FINAL, HISTORY, RunFolder, SUMMARY};
 use crate::forecast::Forecast;
 use crate::history::History;
 use crate::last_state::conclude;
 use crate::left_out::left_out;
-use crate::load;
 use crate::resolve::{self, Setup};
 use crate::resolved;
 use crate::schemes;
@@ -53,7 +52,7 @@ impl Request {
     /// # Errors
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
-        let original = load::case_text(case)?;
+        let original = case_text(case)?;
         let text = changed(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;
         let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
@@ -65,14 +64,13 @@ impl Request {
                 } else {
                     path.into()
                 });
-                let file = ParticleFile::read(path).map_err(|e| RunFailure::Data(e.to_string()))?;
+                let file = ParticleFile::read(path)?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)
             }
             None => None,
         };
-        let plain = bond.as_ref().map(load::bond).transpose()?;
-        let setup = resolve::resolve(&parsed, plain)?;
+        let setup = resolve::resolve(&parsed, bond.as_ref())?;
         bond_measures::check(&parsed, bond.is_some(), &setup)?;
         Ok(Self {
             case: parsed,
@@ -193,7 +191,7 @@ impl Request {
             conclude(&self.setup, scheme, outcome, watch, account, &rows)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
         if end != End::Interrupted {
-            writer.write_final(&clock, &liquid, &displacements)?;
+            writer.write(FINAL, &clock, &liquid, &displacements)?;
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))

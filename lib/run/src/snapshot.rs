@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use particle_file::{BitsRef, Block, Draft, Header, Kind, ParticleFile, Provenance};
-use physics::{LiquidState, Scheme, ShearRate};
+use physics::{Choice, LiquidState, Scheme};
 use units::Axis;
 
 use crate::clock::Clock;
 use crate::failure::RunFailure;
 use crate::folder::snapshot_name;
 use crate::folder::{FINAL, RunFolder};
-use crate::load::swap;
-use crate::resolve::Setup;
+use crate::resolve::{Setup, swap};
 
 const IDENTITY: &str = "identity";
 /// Pressure on the upper body, which a clamp drives, in the step before, Pa.
@@ -80,13 +79,8 @@ impl<'a> SnapshotWriter<'a> {
         header.provenance.push(by);
         header.set_attribute("cell_m", grid.cell_m);
         header.set_attribute(IDENTITY, identity);
-        header.set_attribute(
-            "shear_rate_convention",
-            match setup.scene.liquid.shear_rate {
-                ShearRate::Paper => "paper",
-                ShearRate::Rheometer => "rheometer",
-            },
-        );
+        let convention = setup.scene.liquid.shear_rate.name();
+        header.set_attribute("shear_rate_convention", convention);
         Self {
             folder,
             header,
@@ -111,17 +105,8 @@ impl<'a> SnapshotWriter<'a> {
         Ok(())
     }
 
-    /// Writes `final.mpts` of `liquid`, in the axes of the file, and bodies so displaced (m).
-    pub(crate) fn write_final(
-        &self,
-        clock: &Clock,
-        liquid: &LiquidState,
-        displacements: &[[f64; 3]],
-    ) -> Result<(), RunFailure> {
-        self.write(FINAL, clock, liquid, displacements)
-    }
-
-    fn write(
+    /// Writes `name` of `liquid`, in the axes of the file, and bodies so displaced (m).
+    pub(crate) fn write(
         &self,
         name: &str,
         clock: &Clock,
@@ -169,10 +154,8 @@ pub(crate) fn wood_now<'a>(
     displacements: &[[f64; 3]],
     normal: Axis,
 ) -> Result<[(Block, BitsRef<'a>); 2], RunFailure> {
-    let place = |name, body: usize| {
-        let (block, bits) = bond
-            .block_named(name)
-            .map_err(|e| RunFailure::Data(e.to_string()))?;
+    let place = |name, body: usize| -> Result<_, RunFailure> {
+        let (block, bits) = bond.block_named(name)?;
         let mut block = block.clone();
         let shift = swap(displacements[body], normal);
         block.origin_m = std::array::from_fn(|a| block.origin_m[a] + shift[a]);

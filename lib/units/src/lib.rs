@@ -19,4 +19,4 @@ pub use dimension::{
     Acceleration, Angle, Consistency, Density, Diffusivity, Dimension, Length, MolarEnergy,
     Pressure, ShearRate, Speed, Spread, SurfaceTension, Time, Viscosity, unit,
 };
-pub use quantity::{ParseError, Quantity};
+pub use quantity::{ParseError, Quantity, positive, si};

@@ -71,6 +71,17 @@ impl<D: Dimension> Quantity<D> {
     }
 }
 
+/// The value in SI of a text such as `"1.45 um"`, as a parser of arguments.
+pub fn si<D: Dimension>(text: &str) -> Result<f64, ParseError> {
+    text.parse::<Quantity<D>>().map(Quantity::si)
+}
+
+/// The same of a quantity that must be greater than zero.
+pub fn positive<D: Dimension>(text: &str) -> Result<f64, ParseError> {
+    let quantity = text.parse::<Quantity<D>>().and_then(Quantity::positive);
+    quantity.map(Quantity::si)
+}
+
 impl<D: Dimension> FromStr for Quantity<D> {
     type Err = ParseError;
 

@@ -1,6 +1,6 @@
 //! Uses of a forged particle file: read, measured, built into a bond, pressed.
 
-use bondline::{Options, Placed, Plane, Specimen};
+use bondline::{Opening, Placed, Specimen};
 use metrics::{Datum, Map, Reference, ShearRates, Side, State};
 use particle_file::{Kind, ParticleFile};
 use units::Axis;
@@ -72,14 +72,13 @@ fn build(file: &ParticleFile) {
     let Ok(specimen) = Specimen::new(wood, adhesive) else {
         return;
     };
-    let options = Options {
+    let opening = Opening {
         normal: Axis::from_index(file.header().normal.into()).unwrap_or(Axis::Y),
-        plane: Plane::Auto,
         voxels_per_cell: 2,
         gap_m: None,
         tolerance: 0.5,
     };
-    let _ = bondline::build(&specimen, &options);
+    let _ = bondline::build(&specimen, None, &opening);
 }
 
 /// Explains the bond and takes one step of it by both schemes.

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-use bondline::{Options, Placed, Plane, Specimen};
+use bondline::{Opening, Placed, Specimen};
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
 use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, colortype};
 use units::Axis;
@@ -70,20 +70,17 @@ pub(crate) fn particle_files() -> Vec<Vec<u8>> {
 /// The bond line of the specimen before pressing.
 pub(crate) fn bond() -> Vec<u8> {
     let parts = parts();
-    let [wood, adhesive] = parts.each_ref().map(|bits| Placed {
-        origin_m: [0.0; 3],
-        voxel_m: VOXEL,
-        bits: bits.view(),
-    });
-    let options = Options {
+    let [wood, adhesive] = parts
+        .each_ref()
+        .map(|bits| Placed::at_origin(bits.view(), VOXEL));
+    let opening = Opening {
         normal: Axis::Y,
-        plane: Plane::Auto,
         voxels_per_cell: 2,
         gap_m: None,
         tolerance: 0.1,
     };
-    let built =
-        Specimen::new(wood, adhesive).and_then(|specimen| bondline::build(&specimen, &options));
+    let specimen = Specimen::new(wood, adhesive);
+    let built = specimen.and_then(|specimen| bondline::build(&specimen, None, &opening));
     let bond = built.unwrap_or_else(|e| panic!("the bond of the seeds: {e}"));
     let mut header = header(Kind::Bond, bond.box_min_m, bond.box_max_m);
     header.set_attribute("gap_m", bond.gap_m);

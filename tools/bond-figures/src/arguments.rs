@@ -3,12 +3,12 @@
 use clap::{Args, Parser, Subcommand};
 use cli::Output;
 use figures::{Case, Colouring, Labelled, Position, Shown};
-use units::Axis;
+use units::{Axis, Pressure};
 
 use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, limit, name, one_of,
-    part, png, position, rate, run, share,
+    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, one_of, part, png,
+    position, rate, run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -61,7 +61,7 @@ pub(crate) enum Figure {
         #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
         finer: Vec<Labelled>,
         /// Draw this pressure as a dashed line
-        #[arg(long, value_name = "PRESSURE", value_parser = limit)]
+        #[arg(long, value_name = "PRESSURE", value_parser = units::positive::<Pressure>)]
         limit: Option<f64>,
         /// Title above the figure
         #[arg(long, value_name = "TEXT")]

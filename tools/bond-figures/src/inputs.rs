@@ -102,13 +102,8 @@ impl Inputs {
     pub(crate) fn record(&self) -> Result<Record, Failure> {
         let files = self.files.iter().map(|file| &file.path).zip(&self.given);
         let files = files.chain(self.summaries.iter().zip(&self.summaries));
-        let hashed = files.map(|(file, given)| {
-            let name = given.display().to_string();
-            match cli::hash_file(file) {
-                Ok(hash) => Ok(InputRecord::new(name, hash)),
-                Err(e) => Err(Failure::data(format!("cannot read '{name}': {e}"))),
-            }
-        });
+        let hashed =
+            files.map(|(file, given)| InputRecord::of_file(file, given.display().to_string()));
         let hashed = hashed.collect::<Result<_, _>>()?;
         let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
         Ok(Record::new(tool, version, hashed))

@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 use cli::{Failure, Output, Record};
 use figures::{
-    Cut, Drawing, Error, Labelled, Slices, Table2, Views, closing, penetrations, pores, response,
-    setup, shear_rates, wp_maps,
+    Cut, Drawing, Error, Labelled, Page, Slices, Table2, Views, closing, penetrations, pores,
+    response, setup, shear_rates, wp_maps,
 };
 use particle_file::{by_time, states_of_run};
 
@@ -24,9 +24,9 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
-    let (inputs, picture, drawing) = match arguments.figure {
-        Figure::Movie(a) => return movie(&a),
-        Figure::Table2(a) => return table2(&a),
+    match arguments.figure {
+        Figure::Movie(a) => movie(&a),
+        Figure::Table2(a) => table2(&a),
         Figure::Pressure {
             run,
             finer,
@@ -36,20 +36,14 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         } => {
             let runs = run.len();
             let inputs = Inputs::of_runs([run, finer].concat())?;
-            let (run, finer) = inputs.files().split_at(runs);
-            let title = title.unwrap_or_default();
-            let drawing = closing(run, finer, limit, &title, picture.print.page());
-            (inputs, picture, drawing)
+            drawn(&inputs, &picture, |files, page| {
+                let (run, finer) = files.split_at(runs);
+                closing(run, finer, limit, &title.unwrap_or_default(), page)
+            })
         }
-        Figure::Map { map, picture } => {
-            let inputs = Inputs::new(map)?.marked()?;
-            let drawing = wp_maps(inputs.files(), picture.print.page());
-            (inputs, picture, drawing)
-        }
+        Figure::Map { map, picture } => drawn(&Inputs::new(map)?.marked()?, &picture, wp_maps),
         Figure::Shear { files, picture } => {
-            let inputs = Inputs::new(files)?.marked()?;
-            let drawing = shear_rates(inputs.files(), picture.print.page());
-            (inputs, picture, drawing)
+            drawn(&Inputs::new(files)?.marked()?, &picture, shear_rates)
         }
         Figure::Penetration {
             files,
@@ -57,73 +51,73 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             picture,
         } => {
             let inputs = Inputs::of_runs(files)?.marked()?;
-            let plot = penetrations(inputs.files(), show);
-            let drawing = plot.and_then(|plot| plot.draw(picture.print.page()));
-            (inputs, picture, drawing)
+            drawn(&inputs, &picture, |files, page| {
+                penetrations(files, show)?.draw(page)
+            })
         }
-        Figure::Pores { files, picture } => {
-            let inputs = Inputs::new(files)?;
-            let plot = pores(inputs.files());
-            let drawing = plot.and_then(|plot| plot.draw(picture.print.page()));
-            (inputs, picture, drawing)
-        }
+        Figure::Pores { files, picture } => drawn(&Inputs::new(files)?, &picture, |files, page| {
+            pores(files)?.draw(page)
+        }),
         Figure::Response {
             sweep,
             result,
             error,
             picture,
-        } => {
-            let inputs = Inputs::new(vec![sweep])?;
-            let drawing = response(&inputs.files()[0], &result, error, picture.print.page());
-            (inputs, picture, drawing)
-        }
-        Figure::Slice(a) => slice(a)?,
+        } => drawn(&Inputs::new(vec![sweep])?, &picture, |files, page| {
+            response(&files[0], &result, error, page)
+        }),
+        Figure::Slice(a) => slice(a),
         Figure::Setup {
             specimen,
             bond,
             picture,
         } => {
             let inputs = Inputs::new(vec![specimen, bond])?;
-            let [specimen, bond] = [0, 1].map(|i| &inputs.files()[i]);
-            let drawing = setup(specimen, bond, picture.print.page());
-            (inputs, picture, drawing)
+            drawn(&inputs, &picture, |files, page| {
+                setup(&files[0], &files[1], page)
+            })
         }
         Figure::View {
             files,
             look,
             picture,
-        } => {
-            let inputs = Inputs::new(files)?.marked()?;
-            let views = Views::read(inputs.files(), look.wood, look.from());
-            let drawing = views.map(|views| views.draw(picture.print.page()));
-            (inputs, picture, drawing)
-        }
-    };
-    let drawing = drawing.map_err(failure)?;
+        } => drawn(&Inputs::new(files)?.marked()?, &picture, |files, page| {
+            Ok(Views::read(files, look.wood, look.from())?.draw(page))
+        }),
+    }
+}
+
+/// Draws what is made of the files and writes it.
+fn drawn(
+    inputs: &Inputs,
+    picture: &Picture,
+    draw: impl FnOnce(&[Labelled], Page) -> Result<Drawing, Error>,
+) -> Result<(), Failure> {
+    let drawing = draw(inputs.files(), picture.print.page()).map_err(failure)?;
     inputs.keep_from(picture.output.iter().map(|target| &target.output))?;
     write(&drawing, &picture.output, &inputs.record()?)
 }
 
-/// What a figure is made of, where it goes and how it came out.
-type Drawn = (Inputs, Picture, Result<Drawing, Error>);
-
-fn slice(a: SliceArgs) -> Result<Drawn, Failure> {
-    let inputs = Inputs::new(a.files)?.marked()?;
+fn slice(a: SliceArgs) -> Result<(), Failure> {
     let cut = Cut {
         axis: a.normal,
         position: a.at,
     };
-    let mut slices = Slices::read(inputs.files(), cut, a.colour);
-    let voxel = slices.as_ref().map_or(f64::NAN, Slices::voxel_m);
-    if let Some(part) = a.part {
-        let part = part.map(|ends| ends.map(|end| end.si(voxel)));
-        slices = slices.and_then(|slices| slices.part(part));
-    }
-    if let Some(cell) = a.grid {
-        slices = slices.and_then(|slices| slices.grid(cell.si(voxel)));
-    }
-    let drawing = slices.map(|slices| slices.draw(a.picture.print.page()));
-    Ok((inputs, a.picture, drawing))
+    drawn(
+        &Inputs::new(a.files)?.marked()?,
+        &a.picture,
+        |files, page| {
+            let mut slices = Slices::read(files, cut, a.colour)?;
+            let voxel = slices.voxel_m();
+            if let Some(part) = a.part {
+                slices = slices.part(part.map(|ends| ends.map(|end| end.si(voxel))))?;
+            }
+            if let Some(cell) = a.grid {
+                slices = slices.grid(cell.si(voxel))?;
+            }
+            Ok(slices.draw(page))
+        },
+    )
 }
 
 fn movie(a: &MovieArgs) -> Result<(), Failure> {

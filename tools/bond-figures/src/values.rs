@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use cli::Output;
 use figures::{Case, Colouring, Labelled, Page, Position, Shown, Wood};
-use units::{Length, Pressure, Quantity};
+use units::{Length, si};
 
 /// How to colour the adhesive.
 pub(crate) const COLOURINGS: &[(&str, Colouring)] = &[
@@ -38,12 +38,6 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
             .map(|(_, value)| *value)
             .ok_or("there is no such value")
     })
-}
-
-/// A positive pressure, Pa.
-pub(crate) fn limit(text: &str) -> Result<f64, String> {
-    let pressure = (text.parse::<Quantity<Pressure>>()).and_then(Quantity::positive);
-    pressure.map(Quantity::si).map_err(|e| e.to_string())
 }
 
 /// A picture's file and format.
@@ -174,8 +168,7 @@ fn plain(name: &str) -> Result<(), String> {
 
 /// A printed width, mm.
 pub(crate) fn width(text: &str) -> Result<f64, String> {
-    let length = text.parse::<Quantity<Length>>();
-    let mm = 1e3 * length.map_err(|e| e.to_string())?.si();
+    let mm = 1e3 * si::<Length>(text).map_err(|e| e.to_string())?;
     match (Page::NARROWEST..=Page::WIDEST).contains(&mm) {
         true => Ok(mm),
         false => Err(format!(
@@ -233,8 +226,8 @@ impl FromStr for Extent {
         let number = number.and_then(|number| number.trim().parse().ok());
         match number.filter(|n: &f64| n.is_finite()) {
             Some(n) => Ok(Self::Voxels(n)),
-            None => (text.parse::<Quantity<Length>>())
-                .map(|length| Self::Metres(length.si()))
+            None => si::<Length>(text)
+                .map(Self::Metres)
                 .map_err(|e| format!("{e}, or voxels, as in \"2 voxels\"")),
         }
     }
@@ -273,7 +266,8 @@ pub(crate) fn position(text: &str) -> Result<Position, String> {
     if text.ends_with('%') {
         return share(text).map(Position::Share);
     }
-    let length = text.parse::<Quantity<Length>>();
-    let length = length.map_err(|e| format!("{e}, or a percentage of the box, e.g. 50%"));
-    length.map(|length| Position::At(length.si()))
+    let length = si::<Length>(text);
+    length
+        .map(Position::At)
+        .map_err(|e| format!("{e}, or a percentage of the box, e.g. 50%"))
 }

@@ -77,10 +77,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     };
     // What was read has an end.
     let there = inputs.iter().filter(|path| path.exists());
-    let hashed = there.map(|path| {
-        let unreadable = |e| Failure::data(format!("cannot read '{}': {e}", path.display()));
-        InputRecord::of_file(path).map_err(unreadable)
-    });
+    let hashed = there.map(|path| InputRecord::of_file(path, path.display().to_string()));
     let hashed = hashed.collect::<Result<_, _>>()?;
     let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), hashed);
     report.command = record.command.join(" ");

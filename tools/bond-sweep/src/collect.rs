@@ -20,7 +20,7 @@ pub fn collect(folder: &Path, output: &Output, cost: Option<&Output>) -> Result<
     let record = Record::new(
         env!("CARGO_PKG_NAME"),
         VERSION,
-        vec![InputRecord::of_file(&place).map_err(|e| Failure::write(place.display(), &e))?],
+        vec![InputRecord::of_file(&place, place.display().to_string())?],
     );
     cli::keep_apart_with_records([place.as_path()], [output].into_iter().chain(cost))?;
     let mut rows = Vec::new();

@@ -8,7 +8,6 @@ use particle_file::{Kind as FileKind, ParticleFile};
 use run::{Request, RunFailure, changed_case};
 use serde::{Deserialize, Serialize};
 
-use crate::failure;
 use crate::specimen::{self, Recipe};
 use crate::table::{ColumnKind, Table};
 
@@ -105,7 +104,7 @@ fn blamed<T>(
     accepts: impl Fn(&[Change]) -> Result<T, RunFailure>,
 ) -> Failure {
     let RunFailure::Usage(refused) = refused else {
-        return failure(refused);
+        return refused.into();
     };
     let Some(change) = blame(changes, |changes| accepts(changes).is_ok()) else {
         return table.wrong_row(row, refused);

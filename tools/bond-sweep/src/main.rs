@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use cli::{Failure, Output};
+use cli::Output;
 
 /// Run a table of parameters, a row a run, and collect one table of results
 #[derive(Parser)]
@@ -113,15 +113,4 @@ fn main() -> ExitCode {
             Step::Collect(a) => collect::collect(&a.folder, &a.output, a.cost.as_ref()),
         },
     )
-}
-
-/// What the library says, with the exit status of `mpm-run`.
-fn failure(error: run::RunFailure) -> Failure {
-    match error {
-        run::RunFailure::Usage(said) => Failure::usage(said),
-        run::RunFailure::Data(said) => Failure::data(said),
-        failed @ (run::RunFailure::Run(_) | run::RunFailure::Unstable { .. }) => {
-            Failure::failed(failed)
-        }
-    }
 }

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use cli::{Failure, Progress, Status};
-use particle_file::Provenance;
+use cli::{Failure, Status};
 use run::{End, Mode, Request, RunFailure, Verdict};
 
 use crate::plan::{self, Plan, VERSION};
-use crate::{failure, row, specimen};
+use crate::{row, specimen};
 
 /// Runs the run `name` of the sweep in `folder` to its end and writes its row. One that has its
 /// row is not run again; to have that, remove the row.
@@ -53,29 +52,17 @@ fn press(
     place: &Path,
     however_long: bool,
 ) -> Result<(&'static str, String), Failure> {
-    let request = Request::read(case, Some(bond), &[]).map_err(failure)?;
+    let request = Request::read(case, Some(bond), &[])?;
     request.warnings().into_iter().for_each(cli::warn);
     let mode = Mode {
         resume: true,
         overwrite: false,
         however_long,
     };
-    // The folder is one of mpm-run's and can be continued by it.
-    let by = Provenance::of_process("mpm-run", VERSION, Vec::new());
-    let mut progress = Progress::new(&place.display().to_string());
-    let ended = request.execute(
-        place,
-        mode,
-        by,
-        &cli::interrupted,
-        &mut |ends, state| progress.update(ends, || state),
-        &|warning| cli::warn(warning),
-    );
-    progress.finish();
     let name = place.display();
-    let verdict = match ended {
+    let verdict = match request.execute_on_terminal(place, mode, VERSION) {
         Err(RunFailure::Unstable { said, .. }) => return Ok(("failed", said)),
-        Err(other) => return Err(failure(other)),
+        Err(other) => return Err(other.into()),
         Ok(Some(summary)) if summary.end == End::Interrupted => {
             let said = format!("{name}: stopped early; the same command continues it");
             return Err(Failure::new(Status::Resumable, said));

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use cli::Failure;
-use units::{Angle, Length, Quantity};
+use cli::{Failure, InputRecord};
+use units::{Angle, Length};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Options of `synth-xct` as columns spell them and their values by default: the quick specimen of
@@ -31,14 +31,12 @@ pub fn check(option: &str, value: &str) -> Result<(), String> {
             (three, "voxels along x, y and z such as 40x96x40")
         }
         "seed" => (value.parse::<u64>().is_ok(), "a whole number from 0"),
-        "grain_angle" => {
-            let angle = value.parse::<Quantity<Angle>>();
-            return angle.map(|_| ()).map_err(|e| e.to_string());
-        }
-        _ => {
-            let length = value.parse::<Quantity<Length>>();
-            let length = length.and_then(Quantity::positive);
-            return length.map(|_| ()).map_err(|e| e.to_string());
+        other => {
+            let found = match other {
+                "grain_angle" => units::si::<Angle>(value),
+                _ => units::positive::<Length>(value),
+            };
+            return found.map(|_| ()).map_err(|e| e.to_string());
         }
     };
     match accepted {
@@ -116,9 +114,7 @@ fn run(name: &str, arguments: impl FnOnce(&mut Command) -> &mut Command) -> Resu
 
 /// The hash of a bond file's content as it stands in plans.
 pub fn content(path: &Path) -> Result<String, Failure> {
-    let hash = cli::hash_file(path)
-        .map_err(|e| Failure::data(format!("cannot read '{}': {e}", path.display())))?;
-    Ok(format!("{hash:016x}"))
+    InputRecord::of_file(path, path.display().to_string()).map(|record| record.xxh3)
 }
 
 #[cfg(test)]

@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use bondline::Turn;
 use clap::{Args, Parser};
 use cli::{Failure, Output};
-use units::{Axis, Density, Dimension, Length, Quantity, Spread};
+use units::{Axis, Density, Length, Spread, positive};
 
 /// Take the adhesive out of a specimen, part its adherends and put a slab between them; or lay up undamaged wood around a slab
 ///
@@ -82,13 +81,9 @@ pub(crate) struct Wood {
 }
 
 impl Wood {
-    pub(crate) fn turn(&self) -> Turn {
-        match self.turn_top.as_deref() {
-            Some("90") => Turn::Quarter,
-            Some("180") => Turn::Half,
-            Some("270") => Turn::ThreeQuarters,
-            _ => Turn::None,
-        }
+    pub(crate) fn quarters(&self) -> usize {
+        let degrees = self.turn_top.as_deref().and_then(|text| text.parse().ok());
+        degrees.map_or(0, |degrees: usize| degrees / 90)
     }
 
     /// Thickness of the slab asked for, m; `None` for a bonded specimen.
@@ -121,14 +116,8 @@ fn auto_or_length(text: &str) -> Result<AutoOr, String> {
     if text == "auto" {
         return Ok(AutoOr(None));
     }
-    let length = text.parse::<Quantity<Length>>();
-    let length = length.map_err(|error| format!("{error}, or 'auto'"))?;
-    Ok(AutoOr(Some(length.si())))
-}
-
-fn positive<D: Dimension>(text: &str) -> Result<f64, String> {
-    let quantity = text.parse::<Quantity<D>>().and_then(Quantity::positive);
-    quantity.map(Quantity::si).map_err(|e| e.to_string())
+    let length = units::si::<Length>(text).map_err(|error| format!("{error}, or 'auto'"))?;
+    Ok(AutoOr(Some(length)))
 }
 
 fn percent(text: &str) -> Result<f64, String> {

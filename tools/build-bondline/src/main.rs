@@ -7,7 +7,7 @@ mod report;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use bondline::{Bond, Error, Layup, Options, Pieces, Placed, Plane, Specimen};
+use bondline::{Bond, Error, Layup, Opening, Pieces, Placed, Specimen};
 use cli::Failure;
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use units::Axis;
@@ -90,24 +90,24 @@ fn placed<'a>(file: &'a ParticleFile, name: &str) -> Result<Placed<'a>, Failure>
 fn refusal(files: &[ParticleFile], error: &Error) -> Failure {
     let names: Vec<_> = files.iter().map(|f| format!("'{}'", f.name())).collect();
     let said = format!("{}: {error}", names.join(" and "));
-    match error.is_unfit_data() {
-        true => Failure::data(said),
-        false => Failure::usage(said),
+    Failure::of_input(!error.is_unfit_data(), said)
+}
+
+fn opening(arguments: &Arguments, normal: Axis) -> Opening {
+    Opening {
+        normal,
+        voxels_per_cell: arguments.voxels_per_cell.into(),
+        gap_m: arguments.gap.0,
+        tolerance: arguments.tolerance,
     }
 }
 
 fn bonded(file: &ParticleFile, arguments: &Arguments, normal: Axis) -> Result<Bond, Failure> {
-    let options = Options {
-        normal,
-        plane: arguments.plane.0.map_or(Plane::Auto, Plane::At),
-        voxels_per_cell: arguments.voxels_per_cell.into(),
-        gap_m: arguments.gap.0,
-        tolerance: arguments.tolerance,
-    };
     let refused = |error| refusal(std::slice::from_ref(file), &error);
     let specimen =
         Specimen::new(placed(file, "wood")?, placed(file, "adhesive")?).map_err(refused)?;
-    let bond = bondline::build(&specimen, &options).map_err(refused)?;
+    let bond = bondline::build(&specimen, arguments.plane.0, &opening(arguments, normal))
+        .map_err(refused)?;
     report::tilt(&specimen, &bond, normal);
     Ok(bond)
 }
@@ -145,12 +145,9 @@ fn wood(
         }
     };
     let layup = Layup {
-        normal,
+        opening: opening(arguments, normal),
         slab_m,
-        voxels_per_cell: arguments.voxels_per_cell.into(),
-        gap_m: arguments.gap.0,
-        tolerance: arguments.tolerance,
-        turn: arguments.wood.turn(),
+        quarters: arguments.wood.quarters(),
         crop: arguments.wood.crop_to_fit,
         drop_islands: arguments.wood.drop_islands,
     };

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use cli::{Failure, Progress};
-use particle_file::Provenance;
-use run::{End, Request, RunFailure};
+use cli::Failure;
+use run::{End, Request};
 
 /// Which build this is: a run of one precision cannot be continued in the other.
 const VERSION: &str = if cfg!(feature = "double") {
@@ -89,40 +88,26 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     let Some(case) = &arguments.case else {
         return cli::Output::Stdout.write(|out| write!(out, "{}", run::REFERENCE));
     };
-    let request =
-        Request::read(case, arguments.particles.as_deref(), &arguments.set).map_err(failure)?;
-    for warning in request.warnings() {
-        cli::warn(warning);
-    }
+    let request = Request::read(case, arguments.particles.as_deref(), &arguments.set)?;
+    request.warnings().into_iter().for_each(cli::warn);
     if arguments.explain {
-        let plan = request.explain().map_err(failure)?;
+        let plan = request.explain()?;
         return cli::Output::Stdout.write(|out| write!(out, "{plan}"));
     }
-    let Some(folder) = arguments.output else {
-        return Err(Failure::usage("a run folder is needed: -o RUNDIR"));
-    };
+    // Without a plan or the reference it is required.
+    let folder = arguments.output.unwrap_or_default();
     if folder.as_os_str() == "-" {
         return Err(Failure::usage(
             "a run is a folder of files and cannot go to standard output: -o RUNDIR is needed",
         ));
     }
     cli::catch_interrupts()?;
-    let by = Provenance::of_process(env!("CARGO_PKG_NAME"), VERSION, Vec::new());
-    let mut progress = Progress::new(&folder.display().to_string());
-    let ended = request.execute(
-        &folder,
-        run::Mode {
-            resume: arguments.resume,
-            overwrite: arguments.overwrite,
-            however_long: arguments.yes_really,
-        },
-        by,
-        &cli::interrupted,
-        &mut |ends, state| progress.update(ends, || state),
-        &|warning| cli::warn(warning),
-    );
-    progress.finish();
-    let Some(summary) = ended.map_err(failure)? else {
+    let mode = run::Mode {
+        resume: arguments.resume,
+        overwrite: arguments.overwrite,
+        however_long: arguments.yes_really,
+    };
+    let Some(summary) = request.execute_on_terminal(&folder, mode, VERSION)? else {
         let Some(verdict) = run::Verdict::of_ended(&folder) else {
             return Err(Failure::data(format!(
                 "the run in '{}' has ended, but its summary.json does not say whether the results are sound: use --overwrite to run it again",
@@ -150,13 +135,5 @@ fn sound(verdict: &run::Verdict) -> Result<(), Failure> {
     match verdict.objection() {
         Some(said) => Err(Failure::failed(said)),
         None => Ok(()),
-    }
-}
-
-fn failure(error: RunFailure) -> Failure {
-    match error {
-        RunFailure::Usage(said) => Failure::usage(said),
-        RunFailure::Data(said) => Failure::data(said),
-        failed @ (RunFailure::Run(_) | RunFailure::Unstable { .. }) => Failure::failed(failed),
     }
 }

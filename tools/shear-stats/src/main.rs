@@ -7,7 +7,7 @@ use clap::Parser;
 use cli::{Failure, InputRecord, Output, Record};
 use metrics::{Convention, ShearRates, table, tube_shear_rate};
 use particle_file::ParticleFile;
-use units::{Length, Quantity, Speed};
+use units::{Length, Speed, positive};
 
 /// Distribution of shear rates in the adhesive, weighted by volume
 ///
@@ -30,7 +30,7 @@ struct Arguments {
     /// Print the shear rate at the wall of a tube, 8 v / d (Eq. 7), in both conventions: on
     /// standard error beside a table, on standard output without
     #[arg(long, value_name = "SPEED,DIAMETER", value_parser = tube)]
-    tube: Option<Tube>,
+    tube: Option<[f64; 2]>,
     /// Where the table goes; `-` is standard output
     #[arg(short, long, value_name = "CSV", default_value = "-")]
     output: Output,
@@ -38,26 +38,13 @@ struct Arguments {
     common: cli::Common,
 }
 
-#[derive(Clone, Copy)]
-struct Tube {
-    speed: f64,
-    diameter: f64,
-}
-
-fn tube(text: &str) -> Result<Tube, String> {
+/// Speed (m/s) and diameter (m) of a tube.
+fn tube(text: &str) -> Result<[f64; 2], String> {
     let (speed, diameter) = text
         .split_once(',')
         .ok_or_else(|| format!("'{text}' is not SPEED,DIAMETER; accepted is e.g. '1 m/s,50 um'"))?;
-    let speed: Quantity<Speed> = speed.parse().map_err(said)?;
-    let diameter: Quantity<Length> = diameter.parse().map_err(said)?;
-    Ok(Tube {
-        speed: speed.positive().map_err(said)?.si(),
-        diameter: diameter.positive().map_err(said)?.si(),
-    })
-}
-
-fn said(error: units::ParseError) -> String {
-    error.to_string()
+    let values = positive::<Speed>(speed).and_then(|v| Ok([v, positive::<Length>(diameter)?]));
+    values.map_err(|error| error.to_string())
 }
 
 fn main() -> ExitCode {
@@ -79,12 +66,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     for path in &arguments.snapshots {
         let file = ParticleFile::open(path).map_err(Failure::data)?;
         let rates = ShearRates::of_file(&file, arguments.convention).map_err(|error| {
-            let said = format!("'{}': {error}", path.display());
-            if error.is_usage() {
-                Failure::usage(said)
-            } else {
-                Failure::data(said)
-            }
+            Failure::of_input(error.is_usage(), format!("'{}': {error}", path.display()))
         })?;
         states.push(rates);
         if arguments.output != Output::Stdout {
@@ -100,12 +82,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         .write_with_record(&record, |out| table::write_shear_rates(out, &states))
 }
 
-fn tube_line(tube: Tube) -> String {
-    let rate = tube_shear_rate(tube.speed, tube.diameter);
+fn tube_line([speed, diameter]: [f64; 2]) -> String {
+    let rate = tube_shear_rate(speed, diameter);
     format!(
-        "tube of {:.3} um at {:.3} m/s: 8 v / d = {rate:.4e} 1/s (rheometer), {:.4e} 1/s (paper)",
-        1e6 * tube.diameter,
-        tube.speed,
+        "tube of {:.3} um at {speed:.3} m/s: 8 v / d = {rate:.4e} 1/s (rheometer), {:.4e} 1/s (paper)",
+        1e6 * diameter,
         Convention::Paper.factor() * rate
     )
 }

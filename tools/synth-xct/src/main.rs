@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::Parser;
 use cli::{Failure, Output, Record};
 use synthetic_wood::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Specimen};
-use units::{Angle, Length, Quantity};
+use units::{Angle, Length, positive};
 use voxels::TiffWriter;
 
 /// Grow a synthetic hybrid poplar specimen with a bond line, or undamaged wood of one of four species, as an 8-bit label stack
@@ -35,13 +35,13 @@ struct Arguments {
     #[arg(long, value_name = "XxYxZ", default_value = "48x96x48")]
     size: Size,
     /// Voxel edge
-    #[arg(long, value_name = "LEN", default_value = "1.45 um", allow_hyphen_values = true, value_parser = length)]
+    #[arg(long, value_name = "LEN", default_value = "1.45 um", allow_hyphen_values = true, value_parser = positive::<Length>)]
     voxel: f64,
     /// Adhesive volume over bond area [default: the paper's, at most a sixth of the height]
-    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = length)]
+    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = positive::<Length>)]
     slab: Option<f64>,
     /// Angle of the fibres against the bond plane, 0 to 30 deg [default: drawn from 3 to 6 deg for each adherend]
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = angle)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = units::si::<Angle>)]
     grain_angle: Option<f64>,
     /// Grow it even where that is forecast to need more memory than this process may have
     #[arg(long)]
@@ -73,16 +73,6 @@ impl FromStr for Size {
     }
 }
 
-fn length(text: &str) -> Result<f64, String> {
-    let length = text.parse::<Quantity<Length>>().and_then(|l| l.positive());
-    length.map(Quantity::si).map_err(|e| e.to_string())
-}
-
-fn angle(text: &str) -> Result<f64, String> {
-    let angle = text.parse::<Quantity<Angle>>();
-    angle.map(Quantity::si).map_err(|e| e.to_string())
-}
-
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
 }
@@ -109,12 +99,16 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     cli::keep_apart_with_records([], [&arguments.output])?;
     let [nx, ny, nz] = recipe.size;
     let bytes = recipe.memory_bytes().map_err(Failure::usage)?;
-    cli::enough_memory(
-        format_args!("a specimen of {nx} x {ny} x {nz} voxels"),
-        bytes,
-        "a smaller --size",
-        arguments.yes_really,
-    )?;
+    if let Some(short) = machine::shortage(bytes) {
+        let said = format!(
+            "a specimen of {nx} x {ny} x {nz} voxels needs {short}; a smaller --size is needed"
+        );
+        if !arguments.yes_really {
+            let really = "--yes-really goes on all the same";
+            return Err(Failure::usage(format!("{said}; {really}")));
+        }
+        cli::warn(said);
+    }
     let specimen = Specimen::grow(&recipe).map_err(|error| match error {
         RecipeError::Overfull(_) => Failure::failed(error),
         _ => Failure::usage(error),

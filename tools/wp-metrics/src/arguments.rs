@@ -1,12 +1,11 @@
 //! The command line of wp-metrics.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Parser;
 use cli::Output;
 use metrics::Reference;
-use units::{Axis, Length, Quantity};
+use units::{Axis, Length};
 use voxels::{Dims, Grey, Labels, RawType};
 
 /// Options that have no meaning in tables of wood.
@@ -101,7 +100,7 @@ pub(crate) struct Arguments {
     #[arg(long, requires = "permeability")]
     pub(crate) periodic: bool,
     /// Voxel edge of stacks [default: from their metadata]
-    #[arg(long, value_name = "LEN", help_heading = "Image stacks", value_parser = edge)]
+    #[arg(long, value_name = "LEN", help_heading = "Image stacks", value_parser = units::positive::<Length>)]
     pub(crate) voxel: Option<f64>,
     /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
     #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
@@ -134,13 +133,6 @@ pub(crate) enum GreyLevels {
     Given(Grey),
 }
 
-fn edge(text: &str) -> Result<f64, String> {
-    let length = text
-        .parse::<Quantity<Length>>()
-        .and_then(Quantity::positive);
-    length.map(Quantity::si).map_err(|e| e.to_string())
-}
-
 fn grey(text: &str) -> Result<GreyLevels, String> {
     match text {
         "auto" => Ok(GreyLevels::Auto),
@@ -153,8 +145,8 @@ fn reference(text: &str) -> Result<Reference, String> {
         ("mid", _) => Ok(Reference::Mid),
         ("adherend", _) => Ok(Reference::Adherend),
         ("fit", _) => Ok(Reference::Fit),
-        (_, Some(length)) => Quantity::<Length>::from_str(length)
-            .map(|length| Reference::Plane(length.si()))
+        (_, Some(length)) => units::si::<Length>(length)
+            .map(Reference::Plane)
             .map_err(|e| e.to_string()),
         _ => Err(format!(
             "'{text}' is not a reference; accepted are mid, adherend, fit and plane=LEN"

@@ -68,8 +68,8 @@ impl Input {
                 Ok(state)
             }
             Content::Stack { voxels, edge_m, .. } => {
-                let wood = placed(&voxels.wood, *edge_m);
-                let adhesive = placed(&voxels.adhesive, *edge_m);
+                let parts = [&voxels.wood, &voxels.adhesive];
+                let [wood, adhesive] = parts.map(|bits| Placed::at_origin(bits.view(), *edge_m));
                 let specimen = Specimen::new(wood, adhesive).map_err(Failure::data)?;
                 Ok(State::of_specimen(&specimen, normal.unwrap_or(Axis::Y)))
             }
@@ -117,11 +117,7 @@ impl Input {
     }
 
     pub fn failure(&self, error: &metrics::Error) -> Failure {
-        let said = format!("'{}': {error}", self.name);
-        match error.is_usage() {
-            true => Failure::usage(said),
-            false => Failure::data(said),
-        }
+        Failure::of_input(error.is_usage(), format!("'{}': {error}", self.name))
     }
 
     /// The files that a stack is read from: its slices, or its header and data.
@@ -214,18 +210,7 @@ fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<
 }
 
 fn stack_failure(error: voxels::Error) -> Failure {
-    match error.is_usage() {
-        true => Failure::usage(error),
-        false => Failure::data(error),
-    }
-}
-
-fn placed(bits: &BitGrid, voxel_m: f64) -> Placed<'_> {
-    Placed {
-        origin_m: [0.0; 3],
-        voxel_m,
-        bits: bits.view(),
-    }
+    Failure::of_input(error.is_usage(), error)
 }
 
 fn record(source: &Source) -> Result<InputRecord, Failure> {

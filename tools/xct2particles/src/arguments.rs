@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Parser;
 use cli::Output;
-use units::{Axis, Length, Quantity};
+use units::{Axis, Length};
 use voxels::{Crop, Dims, Grey, Labels, RawType};
 
 /// Turn a stack of XCT label images into a particle file
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     #[arg(required = true, value_name = "STACK")]
     pub(crate) stack: Vec<PathBuf>,
     /// Voxel edge [default: what the stack's metadata state]
-    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = length)]
+    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = units::positive::<Length>)]
     pub(crate) voxel: Option<f64>,
     /// Size of a raw volume, x fastest
     #[arg(long, value_name = "XxYxZ", requires = "kind")]
@@ -96,13 +96,6 @@ fn grey(text: &str) -> Result<GreyLevels, String> {
         "auto-wood" => Ok(GreyLevels::AutoWood),
         ranges => ranges.parse().map(GreyLevels::Given),
     }
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    let length = text
-        .parse::<Quantity<Length>>()
-        .and_then(Quantity::positive);
-    length.map(Quantity::si).map_err(|e| e.to_string())
 }
 
 fn picture(text: &str) -> Result<Output, String> {

@@ -110,12 +110,8 @@ fn level(
     edge: &VoxelEdge,
     name: &str,
 ) -> Result<(), Failure> {
-    let placed = |bits| Placed {
-        origin_m: [0.0; 3],
-        voxel_m: edge.metres,
-        bits,
-    };
-    let [wood, adhesive] = [&segmented.wood, &segmented.adhesive].map(|bits| placed(bits.view()));
+    let parts = [&segmented.wood, &segmented.adhesive];
+    let [wood, adhesive] = parts.map(|bits| Placed::at_origin(bits.view(), edge.metres));
     let refused = |why: String| Failure::usage(format!("{name}: --level {normal}: {why}"));
     let specimen = Specimen::new(wood, adhesive).map_err(|why| refused(why.to_string()))?;
     let turned = metrics::level(&specimen, normal).map_err(refused)?;
@@ -168,12 +164,8 @@ fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
     }
 }
 
-/// Other arguments may help (exit 2) or the file is at fault (exit 3).
 fn failure(error: voxels::Error) -> Failure {
-    match error.is_usage() {
-        true => Failure::usage(error),
-        false => Failure::data(error),
-    }
+    Failure::of_input(error.is_usage(), error)
 }
 
 fn read_pages(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<Segmented, Failure> {

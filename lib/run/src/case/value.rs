@@ -25,10 +25,7 @@ impl<'de, D: Dimension> Deserialize<'de> for Positive<D> {
 
 /// A quantity greater than zero in SI, or a sentence that ends with what else is accepted.
 fn positive<D: Dimension, E: Error>(text: &str, or: &str) -> Result<f64, E> {
-    let quantity = text.parse::<Quantity<D>>().and_then(Quantity::positive);
-    quantity
-        .map(Quantity::si)
-        .map_err(|e| E::custom(format!("{e}, or {or}")))
+    units::positive::<D>(text).map_err(|e| E::custom(format!("{e}, or {or}")))
 }
 
 /// A length, or a multiple of an edge: that of a cell (`"0.01 cell"`) or, for the cell itself, of the specimen's voxel
@@ -133,8 +130,7 @@ impl<'de> Deserialize<'de> for BodyVelocity {
             Ok(Raw::Speeds(speeds)) => {
                 let mut v = [0.0; 3];
                 for (v, text) in v.iter_mut().zip(&speeds) {
-                    let speed = text.parse::<Quantity<Speed>>();
-                    *v = speed.map_err(Error::custom)?.si();
+                    *v = units::si::<Speed>(text).map_err(Error::custom)?;
                 }
                 Ok(BodyVelocity::Constant(v))
             }

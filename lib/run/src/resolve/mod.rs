@@ -11,7 +11,7 @@ mod press;
 mod primitives;
 mod seed;
 
-use particle_file::limits;
+use particle_file::{ParticleFile, limits};
 use physics::{
     Amount, Boundary, Clamp, Dimensions, Pid, Points, PressStage, RigidBody, Scene, Seed, Stop,
     WallLaw,
@@ -20,7 +20,7 @@ use physics::{
 use crate::case::{Case, ClampTable, Contact, StopRule};
 use crate::failure::{RunFailure, refused};
 
-pub use bond::Bond;
+pub(crate) use bond::swap;
 pub(crate) use plausible::OVERLAP;
 use seed::Seeds;
 
@@ -79,11 +79,11 @@ struct Geometry {
     normal: units::Axis,
 }
 
-/// Resolves `case`, with the bond file's content where one is given.
+/// Resolves `case`, with the bond file where one is given.
 ///
 /// # Errors
 /// One sentence about keys that contradict each other or geometry that does not fit.
-pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, RunFailure> {
+pub fn resolve(case: &Case, bond: Option<&ParticleFile>) -> Result<Setup, RunFailure> {
     let dimensions = match case.grid.dimensions {
         2 => Dimensions::Two,
         3 => Dimensions::Three,

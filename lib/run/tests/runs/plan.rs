@@ -218,7 +218,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     leaves_out(&bench, &[&all[..], &implicit].concat(), &of_implicit[1..]);
     let air = "air={ pressure = \"101.325 kPa\" }";
     let leaks = |time| format!("air={{ pressure = \"101.325 kPa\", leak_time = \"{time}\" }}");
-    let [soon, late] = [leaks("1 ps"), leaks("1000 s")];
+    let [soon, late] = [leaks("1 ns"), leaks("1000 s")];
     let side = |z| format!("boundary={{ x = \"open\", z = \"{z}\" }}");
     let [open, mirror] = [side("open"), side("symmetry")];
     let closed = "beyond the sides air in lumens is closed off";

@@ -4,8 +4,6 @@ mod wood;
 #[path = "../../../workbench.rs"]
 mod workbench;
 
-use std::fs::File;
-
 use particle_file::{BitGrid, Header, Kind, ParticleFile};
 use workbench::Bench;
 
@@ -85,8 +83,7 @@ fn a_bond_keeps_the_wood_and_the_adhesive_volume() {
     let top = file.block_named("wood-top").unwrap().0;
     assert!((top.origin_m[1] - 37.0 * VOXEL).abs() < 1e-12);
 
-    let stdin = File::open(bench.path("specimen.mpts")).unwrap();
-    let piped = bench.run_on(stdin, "- -q -o -").done();
+    let piped = bench.shell("$TOOL - -q -o - < specimen.mpts").done();
     assert!(piped.said.is_empty(), "{}", piped.said);
     let piped = ParticleFile::from_bytes(&piped.stdout).unwrap();
     assert_eq!(piped.sum().unwrap(), file.sum().unwrap());

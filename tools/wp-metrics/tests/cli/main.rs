@@ -5,7 +5,7 @@ mod wood;
 #[path = "../../../workbench.rs"]
 mod workbench;
 
-use std::fs::{self, File};
+use std::fs;
 use std::path::Path;
 
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
@@ -93,12 +93,8 @@ fn a_specimen_from_a_file_a_pipe_and_standard_input() {
         assert!((number(&row[4]) - wp).abs() < 1e-4, "{row:?} {wp}");
     }
     assert_eq!(found[2][10], (9.5 * 640.0).to_string());
-    let stdin = File::open(bench.path("specimen.mpts")).unwrap();
-    for other in [
-        bench.run_on(stdin, "-"),
-        bench.run_piped("specimen.mpts", "-"),
-    ] {
-        assert_eq!(rows(&other.output())[2][1..], found[2][1..]);
+    for line in ["$TOOL - < specimen.mpts", "cat specimen.mpts | $TOOL -"] {
+        assert_eq!(rows(&bench.shell(line).output())[2][1..], found[2][1..]);
     }
 }
 

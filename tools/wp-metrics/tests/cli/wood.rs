@@ -1,7 +1,7 @@
 //! Permeability and pores of wood, and islands left out of slices.
 
 use crate::workbench::{number, rows};
-use crate::{DIMS, VOXEL, bench, state};
+use crate::{DIMS, VOXEL, bench};
 
 /// The gap of six voxels is a slit across x and z, with less friction where grooves of one voxel every four open into it; they
 /// add to it along z.
@@ -61,12 +61,4 @@ fn islands_of_a_slice_are_left_out() {
         assert_eq!(number(&rows(&least(kept).output())[2][10]), all as f64);
     }
     least(381).refused(3, "");
-    state(&bench, "state.mpts", 2, 0.0, |_| ());
-    bench
-        .run("state.mpts --ignore-islands 2")
-        .refused(2, "no slices");
-    for option in ["--permeability z", "--pores"] {
-        let parted = bench.run(&format!("state.mpts {option}"));
-        parted.refused(2, "adherends are parted");
-    }
 }

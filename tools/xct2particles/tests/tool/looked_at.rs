@@ -2,27 +2,29 @@
 
 use std::fs;
 
-use crate::{Folder, bits, said, tiff};
+use crate::{bench, bits, open, tiff, told, with_acer};
 
 #[test]
 fn a_preview_is_drawn_of_three_cuts_and_needs_no_other_output() {
-    let folder = Folder::with_acer();
-    folder.run("acer.tif --voxel 1.45um --preview look.png", 0, &[]);
-    let png = fs::read(folder.path("look.png")).unwrap();
+    let bench = with_acer();
+    told(&bench, "acer.tif --voxel 1.45um --preview look.png", 0, &[]);
+    let png = fs::read(bench.path("look.png")).unwrap();
     assert!(png.starts_with(b"\x89PNG"));
     // Three panels, side by side.
     let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     assert!(side(16) > side(20), "{} x {}", side(16), side(20));
-    assert_eq!(fs::read_dir(folder.0.path()).unwrap().count(), 2);
+    let folder = bench.path("");
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 2);
     let vector = "acer.tif --voxel 1.45um --preview look.svg";
-    folder.run(vector, 2, &["end in .png"]);
+    told(&bench, vector, 2, &["end in .png"]);
 }
 
 #[test]
 fn wood_and_void_that_look_exchanged_are_refused() {
-    let folder = Folder::with_acer();
+    let bench = with_acer();
     let run = |more: &str, status, said: &[&str]| {
-        folder.run(
+        told(
+            &bench,
             &format!("acer.tif --voxel 1.45um -o o.mpts {more}"),
             status,
             said,
@@ -37,13 +39,13 @@ fn wood_and_void_that_look_exchanged_are_refused() {
     ];
     run(&format!("{exchanged} --preview look.png"), 2, &said);
     // To be looked at.
-    assert!(folder.path("look.png").exists() && !folder.path("o.mpts").exists());
+    assert!(bench.path("look.png").exists() && !bench.path("o.mpts").exists());
     run(
         &format!("{exchanged} --yes-really"),
         0,
         &["warning: wood and void"],
     );
-    assert!(folder.path("o.mpts").exists());
+    assert!(bench.path("o.mpts").exists());
     // By grey values too: void is brighter than wood.
     run("--grey wood=..64,adhesive=200..", 2, &[]);
     assert!(!run("", 0, &[]).contains("warning"));
@@ -53,7 +55,7 @@ fn wood_and_void_that_look_exchanged_are_refused() {
 
 #[test]
 fn specks_are_taken_out_where_that_is_asked_for() {
-    let folder = Folder::new();
+    let bench = bench();
     // Adhesive in wood and in void, a pair of it, wood in adhesive, void in wood.
     let noise = [
         ([3, 2, 4], 255),
@@ -68,11 +70,11 @@ fn specks_are_taken_out_where_that_is_asked_for() {
         let noise = noise.iter().find(|(at, _)| *at == [x, y, z]);
         noise.map_or(band(y), |(_, label)| *label)
     };
-    folder.write("clean.tif", &tiff([20, 30, 10], |_, y, _| band(y)));
-    folder.write("noisy.tif", &tiff([20, 30, 10], noisy));
+    bench.write("clean.tif", tiff([20, 30, 10], |_, y, _| band(y)));
+    bench.write("noisy.tif", tiff([20, 30, 10], noisy));
     let columns = |arguments: &str, parts: &[&str]| {
-        let said = folder.run(&format!("{arguments} -o o.mpts"), 0, parts);
-        let file = folder.file("o.mpts");
+        let said = told(&bench, &format!("{arguments} -o o.mpts"), 0, parts);
+        let file = open(&bench, "o.mpts");
         let noted = file.header().attribute("despeckle").map(str::to_owned);
         (bits(&file), said, noted)
     };
@@ -91,14 +93,14 @@ fn specks_are_taken_out_where_that_is_asked_for() {
 
 #[test]
 fn an_edge_in_the_wrong_unit_is_doubted() {
-    let folder = Folder::with_acer();
+    let bench = with_acer();
     for (edge, doubted) in [
         ("1.45mm", true),
         ("1.45nm", true),
         ("20um", false),
         ("0.1um", false),
     ] {
-        let said = folder.run(&format!("acer.tif --voxel {edge} -o -"), 0, &[]);
+        let said = told(&bench, &format!("acer.tif --voxel {edge} -o -"), 0, &[]);
         assert_eq!(
             said.contains("is the unit right?"),
             doubted,
@@ -109,9 +111,9 @@ fn an_edge_in_the_wrong_unit_is_doubted() {
 
 #[test]
 fn a_folder_of_temporary_files_that_is_not_there_is_named() {
-    let folder = Folder::new();
-    folder.write("a.txt", b"0 1");
-    folder.write("a.mhd", b"NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nBinaryData = False\nElementDataFile = a.txt\n");
-    let mut tool = folder.tool("a.mhd --voxel 1.45um -o -");
-    said(tool.env("TMPDIR", "/none"), 3, &["'/none'", "set TMPDIR"]);
+    let bench = bench();
+    bench.write("a.txt", b"0 1");
+    bench.write("a.mhd", b"NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nBinaryData = False\nElementDataFile = a.txt\n");
+    let run = bench.shell("TMPDIR=/none $TOOL a.mhd --voxel 1.45um -o -");
+    run.refused(3, "'/none'").refused(3, "set TMPDIR");
 }

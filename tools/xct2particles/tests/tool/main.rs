@@ -3,69 +3,43 @@
 mod grey_values;
 mod looked_at;
 mod stacks;
+#[path = "../../../workbench.rs"]
+mod workbench;
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::path::Path;
 
 use particle_file::ParticleFile;
-use tempfile::TempDir;
 use voxels::TiffWriter;
+use workbench::Bench;
 
-/// A folder in which the tool is run.
-struct Folder(TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    /// One with `acer.tif`, the bond of maple of the examples.
-    fn with_acer() -> Self {
-        let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let acer = top.join("pipelines/examples/acer/bondline-acer-64x192x128.tif");
-        let folder = Self::new();
-        std::os::unix::fs::symlink(acer, folder.path("acer.tif")).unwrap();
-        folder
-    }
-
-    fn write(&self, name: &str, bytes: &[u8]) {
-        fs::write(self.path(name), bytes).unwrap();
-    }
-
-    fn tool(&self, arguments: &str) -> Command {
-        let mut tool = Command::new(env!("CARGO_BIN_EXE_xct2particles"));
-        let words = arguments.split_whitespace();
-        tool.args(words).current_dir(self.0.path());
-        tool.stdin(Stdio::null());
-        tool
-    }
-
-    /// Runs the tool with the words of `arguments` and expects the exit status; what it
-    /// said, which has these parts.
-    fn run(&self, arguments: &str, status: i32, parts: &[&str]) -> String {
-        said(&mut self.tool(arguments), status, parts)
-    }
-
-    fn file(&self, name: &str) -> ParticleFile {
-        ParticleFile::open(self.path(name)).unwrap()
-    }
+fn bench() -> Bench {
+    Bench::new(env!("CARGO_BIN_EXE_xct2particles"))
 }
 
-fn said(tool: &mut Command, status: i32, parts: &[&str]) -> String {
-    let output = tool.output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(status), "{tool:?}: {said}");
-    for part in parts.iter().chain(&[""]) {
-        assert!(said.contains(part), "no {part:?} of {tool:?}: {said}");
-    }
-    assert!(!said.contains("panicked"), "{said}");
-    assert!(output.stdout.is_empty() || status == 0);
-    said
+/// A folder with `acer.tif`, the bond of maple of the examples.
+fn with_acer() -> Bench {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let acer = top.join("pipelines/examples/acer/bondline-acer-64x192x128.tif");
+    let bench = bench();
+    std::os::unix::fs::symlink(acer, bench.path("acer.tif")).unwrap();
+    bench
+}
+
+/// What a run of this line says, which ends with this status and has these parts.
+#[track_caller]
+fn told(bench: &Bench, line: &str, status: i32, parts: &[&str]) -> String {
+    let ended = parts
+        .iter()
+        .fold(bench.run(line).refused(status, ""), |ended, part| {
+            ended.refused(status, part)
+        });
+    assert!(!ended.said.contains("panicked"), "{}", ended.said);
+    assert!(ended.stdout.is_empty() || status == 0);
+    ended.said
+}
+
+fn open(bench: &Bench, name: &str) -> ParticleFile {
+    ParticleFile::open(bench.path(name)).unwrap()
 }
 
 /// A TIFF with voxels of 1.45 um.

@@ -1,12 +1,11 @@
 //! From stacks of labels to particle files.
 
 use std::fs;
-use std::io::Write;
-use std::process::{Command, Stdio};
 
 use particle_file::ParticleFile;
 
-use crate::{Folder, bits, counts, said, tiff};
+use crate::workbench::Bench;
+use crate::{bench, bits, counts, open, tiff, told};
 
 const DIMS: [usize; 3] = [70, 20, 10];
 
@@ -20,15 +19,15 @@ fn stack() -> Vec<u8> {
 }
 
 /// A folder with the labelled stack `a.tif`.
-fn folder() -> Folder {
-    let folder = Folder::new();
-    folder.write("a.tif", &stack());
-    folder
+fn labelled() -> Bench {
+    let bench = bench();
+    bench.write("a.tif", stack());
+    bench
 }
 
 #[test]
 fn a_stack_becomes_two_blocks_with_counts_on_standard_error() {
-    let folder = folder();
+    let bench = labelled();
     // Voxel size from the file, labels guessed; a quarter of the voxels is adhesive.
     let said = [
         "1.450000 um, from ImageJ metadata",
@@ -38,8 +37,8 @@ fn a_stack_becomes_two_blocks_with_counts_on_standard_error() {
         "bond area   1471.8 um2",
         "over it 7.2500 um",
     ];
-    folder.run("a.tif -o o.mpts", 0, &said);
-    let file = folder.file("o.mpts");
+    told(&bench, "a.tif -o o.mpts", 0, &said);
+    let file = open(&bench, "o.mpts");
     assert_eq!(counts(&file), [7000, 3500]);
     let (block, adhesive) = file.block_named("adhesive").unwrap();
     assert!((block.voxel_m - 1.45e-6).abs() < 1e-18);
@@ -50,29 +49,20 @@ fn a_stack_becomes_two_blocks_with_counts_on_standard_error() {
     assert_eq!(provenance.tool, "xct2particles");
     assert_eq!(provenance.inputs[0].0, "a.tif");
     // The result does not depend on the number of threads.
-    folder.run("-q --threads 1 a.tif -o one.mpts", 0, &[]);
-    assert_eq!(bits(&folder.file("one.mpts")), bits(&file));
+    told(&bench, "-q --threads 1 a.tif -o one.mpts", 0, &[]);
+    assert_eq!(bits(&open(&bench, "one.mpts")), bits(&file));
 }
 
 #[test]
 fn standard_input_standard_output_and_crops() {
-    let folder = folder();
-    assert_eq!(folder.run("-q a.tif -o -", 0, &[]), "");
+    let bench = labelled();
+    assert_eq!(told(&bench, "-q a.tif -o -", 0, &[]), "");
     // A redirected file and a pipe.
     let crop = "- --crop 6:70,4:11,0:3 --labels void=0,wood=128,adhesive=255 -o -";
-    let input = fs::File::open(folder.path("a.tif")).unwrap();
-    let redirected = folder.tool(crop).stdin(input).output().unwrap();
-    let mut piped = folder.tool(crop);
-    piped
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let mut piped = piped.spawn().unwrap();
-    piped.stdin.take().unwrap().write_all(&stack()).unwrap();
-    let piped = piped.wait_with_output().unwrap();
-    assert_eq!(piped.status.code(), Some(0));
+    let redirected = bench.shell(&format!("$TOOL {crop} < a.tif")).done();
+    let piped = bench.shell(&format!("cat a.tif | $TOOL {crop}")).done();
     assert_eq!(piped.stdout, redirected.stdout);
-    let said = String::from_utf8(redirected.stderr).unwrap();
+    let said = redirected.said;
     assert!(said.contains(", cropped to 64 x 7 x 3 voxels\n"), "{said}");
     let file = ParticleFile::from_bytes(&piped.stdout).unwrap();
     assert_eq!(counts(&file), [64 * 3, 64 * 5 * 3]);
@@ -81,7 +71,7 @@ fn standard_input_standard_output_and_crops() {
 
 #[test]
 fn labels_and_voxel_size_that_nothing_states_are_asked_for() {
-    let folder = Folder::new();
+    let bench = bench();
     let mut unsized_stack = stack();
     let at = unsized_stack
         .windows(7)
@@ -107,23 +97,29 @@ fn labels_and_voxel_size_that_nothing_states_are_asked_for() {
             &["without adhesive"],
         ),
     ] {
-        folder.write("a.tif", &stack);
-        folder.run("a.tif -o o.mpts", status, said);
+        bench.write("a.tif", &stack);
+        told(&bench, "a.tif -o o.mpts", status, said);
     }
 }
 
 #[test]
 fn a_voxel_size_against_the_files_own_is_taken_with_a_warning() {
-    let folder = folder();
-    let run =
-        |edge, said: &[&str]| folder.run(&format!("a.tif --voxel {edge} -q -o /dev/null"), 0, said);
+    let bench = labelled();
+    let run = |edge, said: &[&str]| {
+        told(
+            &bench,
+            &format!("a.tif --voxel {edge} -q -o /dev/null"),
+            0,
+            said,
+        )
+    };
     assert_eq!(run("1.45um", &[]), "");
     run("2.9um", &["1.45 x 1.45 x 1.45 um; --voxel is taken"]);
 }
 
 #[test]
 fn huge_declared_sizes_fit_into_little_memory() {
-    let folder = Folder::new();
+    let bench = bench();
     let mut bytes = stack();
     // Width (tag 256) and height (tag 257), type LONG, count 1, of the first page.
     for tag in [0_u8, 1] {
@@ -131,22 +127,19 @@ fn huge_declared_sizes_fit_into_little_memory() {
         let at = bytes.windows(8).position(|w| w == entry).unwrap();
         bytes[at + 8..at + 12].copy_from_slice(&0x7fff_ffff_u32.to_le_bytes());
     }
-    folder.write("a.tif", &bytes);
-    let tool = env!("CARGO_BIN_EXE_xct2particles");
-    let limited = format!("ulimit -v 400000; exec {tool} a.tif --threads 2 -o o.mpts");
-    let mut shell = Command::new("sh");
-    shell.args(["-c", &limited]).current_dir(folder.0.path());
-    said(&mut shell, 3, &["page 1"]);
+    bench.write("a.tif", &bytes);
+    let limited = "ulimit -v 400000; exec $TOOL a.tif --threads 2 -o o.mpts";
+    bench.shell(limited).refused(3, "page 1");
 }
 
 /// Undamaged wood: labels guessed or named, grey values given or proposed; two values that may be
 /// wood or adhesive are not guessed.
 #[test]
 fn a_stack_without_adhesive_is_a_specimen_of_wood() {
-    let folder = Folder::new();
+    let bench = bench();
     for (name, wood) in [("labels.raw", 128), ("mask.raw", 255)] {
         let voxels = (0..20 * 10 * 5).map(|i| if i / 20 % 10 < 6 { wood } else { 0 });
-        folder.write(name, &voxels.collect::<Vec<u8>>());
+        bench.write(name, voxels.collect::<Vec<u8>>());
     }
     let volume = "--dims 20x10x5 --type u8 --voxel 1.45um -o o.mpts";
     for input in [
@@ -155,15 +148,15 @@ fn a_stack_without_adhesive_is_a_specimen_of_wood() {
         "mask.raw --grey wood=90..",
         "mask.raw --grey auto-wood",
     ] {
-        folder.run(&format!("{input} {volume}"), 0, &["undamaged wood"]);
-        assert_eq!(counts(&folder.file("o.mpts")), [600, 0], "{input}");
+        told(&bench, &format!("{input} {volume}"), 0, &["undamaged wood"]);
+        assert_eq!(counts(&open(&bench, "o.mpts")), [600, 0], "{input}");
     }
-    folder.run(&format!("mask.raw {volume}"), 2, &["--labels"]);
+    told(&bench, &format!("mask.raw {volume}"), 2, &["--labels"]);
 }
 
 /// All that a particle file holds but how it was made.
-fn content(folder: &Folder) -> (String, [Vec<u64>; 2]) {
-    let file = folder.file("o.mpts");
+fn content(bench: &Bench) -> (String, [Vec<u64>; 2]) {
+    let file = open(bench, "o.mpts");
     let mut header = file.header().clone();
     header.provenance.clear();
     (format!("{header:?}"), bits(&file))
@@ -171,26 +164,26 @@ fn content(folder: &Folder) -> (String, [Vec<u64>; 2]) {
 
 #[test]
 fn copies_with_and_without_a_header_and_slices_give_the_same_particle_file() {
-    let folder = Folder::new();
+    let bench = bench();
     let dims = [31, 20, 6];
     let label = |y: usize| [1, 2, 0, 1][y / 5];
     let all: Vec<u8> = (0..31 * 20 * 6).map(|i| label(i / 31 % 20)).collect();
     let wide: Vec<u8> = all.iter().flat_map(|l| [0, *l]).collect();
     let nrrd = b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 31 20 6\nencoding: raw\n\n";
     let nrrd = [&nrrd[..], &all].concat();
-    folder.write("a.raw", &all);
-    folder.write("wide.raw", &wide);
-    folder.write("a.nrrd", &nrrd);
-    folder.write("a.tif", &tiff(dims, |_, y, _| label(y)));
-    fs::create_dir(folder.path("slices")).unwrap();
+    bench.write("a.raw", &all);
+    bench.write("wide.raw", &wide);
+    bench.write("a.nrrd", &nrrd);
+    bench.write("a.tif", tiff(dims, |_, y, _| label(y)));
+    fs::create_dir(bench.path("slices")).unwrap();
     for z in 0..6 {
         let slice = tiff([31, 20, 1], |_, y, _| label(y));
-        folder.write(&format!("slices/s{z}.tif"), &slice);
+        bench.write(&format!("slices/s{z}.tif"), &slice);
     }
     let size = "--voxel 2um --labels void=0,wood=1,adhesive=2 -o o.mpts";
     let made = |stack: &str| {
-        folder.run(&format!("{stack} {size}"), 0, &[]);
-        content(&folder)
+        told(&bench, &format!("{stack} {size}"), 0, &[]);
+        content(&bench)
     };
     let expected = made("a.tif");
     for stack in [
@@ -203,32 +196,32 @@ fn copies_with_and_without_a_header_and_slices_give_the_same_particle_file() {
     }
     // A page more than is declared was passed over.
     let page = [0; 31 * 20];
-    folder.write("a.nrrd", &[&nrrd[..], &page].concat());
-    folder.write("a.raw", &[&all[..], &page].concat());
-    fs::remove_file(folder.path("slices/s3.tif")).unwrap();
+    bench.write("a.nrrd", [&nrrd[..], &page].concat());
+    bench.write("a.raw", [&all[..], &page].concat());
+    fs::remove_file(bench.path("slices/s3.tif")).unwrap();
     for (stack, status, said) in [
         ("a.nrrd", 3, &["620 bytes stand behind"][..]),
         ("slices", 0, &["s2.tif' and 'slices/s4.tif' it is 2"]),
         ("a.raw --dims 3x3x3", 2, &[]),
         ("a.raw --dims 30x20x6 --type u8", 2, &["3600", "4340"]),
     ] {
-        folder.run(&format!("{stack} {size}"), status, said);
+        told(&bench, &format!("{stack} {size}"), status, said);
     }
 }
 
 #[test]
 fn a_tilted_specimen_is_turned_level_and_told() {
-    let folder = Folder::new();
+    let bench = bench();
     // The bands rise by 0.05 along x, 0.0507 by the steps of their voxels: 2.90 degrees about z.
     let up = |x: usize| (0.05 * (x as f64 - 34.5)).round() as isize;
     let tilted = |x: usize, y: usize, _| label((y as isize - up(x)).clamp(0, 19) as usize);
-    folder.write("a.tif", &tiff(DIMS, tilted));
+    bench.write("a.tif", tiff(DIMS, tilted));
     let said = [
         "turned by 0.00, 0.00 and 2.90 ",
         "68 x 16 x 10 voxels are left",
     ];
-    folder.run("a.tif --level y -o o.mpts", 0, &said);
-    let file = folder.file("o.mpts");
+    told(&bench, "a.tif --level y -o o.mpts", 0, &said);
+    let file = open(&bench, "o.mpts");
     assert_eq!(file.header().attribute("level"), Some("y"));
     let (block, adhesive) = file.block_named("adhesive").unwrap();
     assert_eq!(block.dims, [68, 16, 10]);
@@ -242,19 +235,19 @@ fn a_tilted_specimen_is_turned_level_and_told() {
 /// A slab of five layers was said to be 2.5 layers thick, and its file to have its bond across y.
 #[test]
 fn a_specimen_that_is_levelled_across_x_has_its_bond_there() {
-    let folder = Folder::new();
+    let bench = bench();
     let label = |x: usize| match x {
         30..35 => 255,
         69 => 0,
         _ => 128,
     };
-    folder.write("a.tif", &tiff(DIMS, |x, _, _| label(x)));
+    bench.write("a.tif", tiff(DIMS, |x, _, _| label(x)));
     let said = [
         "bond area   420.5 um2 (y times z), adhesive volume over it 7.2500 um",
         "turned by 0.00, 0.00 and 0.00",
     ];
-    folder.run("a.tif --level x -o o.mpts", 0, &said);
-    assert_eq!(folder.file("o.mpts").header().normal, 0);
+    told(&bench, "a.tif --level x -o o.mpts", 0, &said);
+    assert_eq!(open(&bench, "o.mpts").header().normal, 0);
     let refused = "--level y: the bond lies across x, not across y";
-    folder.run("a.tif --level y -o -", 2, &[refused]);
+    told(&bench, "a.tif --level y -o -", 2, &[refused]);
 }

@@ -1,10 +1,10 @@
 //! A bond from synthetic specimens whose answer is known, along each axis.
 
-use bondline::{Bond, Error, Options, Placed, Plane, Specimen, build};
+use bondline::{Bond, Error, Opening, Placed, Specimen, build};
 use particle_file::BitGrid;
 use units::Axis;
 
-const VOXEL: f64 = 1.45e-6;
+use crate::{VOXEL, near, opening, placed, refused};
 
 /// Layers along the normal: comb-shaped wood up to 20 and from 31, adhesive in the gap and in
 /// the grooves of the bottom comb down to 14, one speck at 38.
@@ -43,45 +43,27 @@ impl Stack {
         }
     }
 
-    fn build(&self, options: &Options) -> Result<Bond, Error> {
+    fn build(&self, opening: &Opening) -> Result<Bond, Error> {
+        self.cut(None, opening)
+    }
+
+    /// Split so many voxels above its low face.
+    fn cut(&self, layers: Option<f64>, opening: &Opening) -> Result<Bond, Error> {
         let specimen = Specimen::new(placed(&self.wood), placed(&self.adhesive))?;
-        build(&specimen, options)
+        build(&specimen, layers.map(|n| n * VOXEL), opening)
     }
 
     #[track_caller]
-    fn refuses(&self, options: &Options, said: &str) {
-        let error = self.build(options).unwrap_err().to_string();
-        assert!(error.contains(said), "{error}");
+    fn refuses(&self, opening: &Opening, said: &str) {
+        refused(self.build(opening), said);
     }
-}
-
-fn placed(grid: &BitGrid) -> Placed<'_> {
-    Placed {
-        origin_m: [0.0; 3],
-        voxel_m: VOXEL,
-        bits: grid.view(),
-    }
-}
-
-fn options(normal: Axis) -> Options {
-    Options {
-        normal,
-        plane: Plane::Auto,
-        voxels_per_cell: 2,
-        gap_m: None,
-        tolerance: 0.05,
-    }
-}
-
-fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() < 1e-6 * VOXEL
 }
 
 #[test]
 fn every_axis_gives_the_same_bond() {
     for normal in Axis::ALL {
         let stack = Stack::new(normal, [80, 12]);
-        let bond = stack.build(&options(normal)).unwrap();
+        let bond = stack.build(&opening(normal)).unwrap();
         let n = normal.index();
         // Midway between the faces at 20 and 31 is 25.5: the face below it.
         assert!(near(bond.plane_m, 25.0 * VOXEL), "{normal}");
@@ -110,7 +92,7 @@ fn every_axis_gives_the_same_bond() {
 fn odd_widths_are_trimmed_to_whole_cells_and_counted_again() {
     let bond = |lateral| {
         Stack::new(Axis::Y, lateral)
-            .build(&options(Axis::Y))
+            .build(&opening(Axis::Y))
             .unwrap()
     };
     let odd = bond([81, 13]);
@@ -126,21 +108,18 @@ fn odd_widths_are_trimmed_to_whole_cells_and_counted_again() {
 #[test]
 fn a_plane_through_the_wood_severs_it_and_says_so() {
     let stack = Stack::new(Axis::Y, [80, 12]);
-    let at = |layers: f64| Options {
-        plane: Plane::At(layers * VOXEL),
-        ..options(Axis::Y)
-    };
-    let bond = stack.build(&at(10.2)).unwrap();
+    let at = |layers: f64| stack.cut(Some(layers), &opening(Axis::Y));
+    let bond = at(10.2).unwrap();
     assert!(near(bond.plane_m, 10.0 * VOXEL));
     assert_eq!(bond.severed, 60 * 12);
     let doubt = bondline::doubt(bond.severed, bond.area).unwrap();
     assert!(doubt.contains("75.0 % of the bond area"), "{doubt}");
-    let sound = stack.build(&options(Axis::Y)).unwrap();
+    let sound = stack.build(&opening(Axis::Y)).unwrap();
     assert_eq!(bondline::doubt(sound.severed, sound.area), None);
     let wood = bond.bottom.bits.count() + bond.top.bits.count();
     assert_eq!(wood, stack.wood.count());
     for outside in [50.0, f64::NAN] {
-        stack.refuses(&at(outside), "is outside the specimen");
+        refused(at(outside), "is outside the specimen");
     }
 }
 
@@ -151,14 +130,13 @@ fn a_bond_across_another_axis_is_refused_by_its_name() {
         let stack = Stack::new(across, [80, 12]);
         for normal in Axis::ALL.into_iter().filter(|axis| *axis != across) {
             let said = format!("lies across {across}, not across {normal}");
-            stack.refuses(&options(normal), &said);
+            stack.refuses(&opening(normal), &said);
         }
-        let by_hand = Options {
-            plane: Plane::At(7.0 * VOXEL),
+        let by_hand = Opening {
             tolerance: 1.0,
-            ..options(Axis::ALL[(across.index() + 1) % 3])
+            ..opening(Axis::ALL[(across.index() + 1) % 3])
         };
-        assert!(stack.build(&by_hand).is_ok());
+        assert!(stack.cut(Some(7.0), &by_hand).is_ok());
     }
 }
 
@@ -179,35 +157,35 @@ fn a_starved_bond_is_found_all_the_same() {
             adhesive: grid('a'),
         }
     };
-    let rough = Options {
+    let rough = Opening {
         tolerance: 1.0,
-        ..options(Axis::Y)
+        ..opening(Axis::Y)
     };
     let found = stack(true).build(&rough).unwrap().found.unwrap();
     assert_eq!((found.seed, found.contrast), (20, 0.5));
     for normal in Axis::ALL {
-        stack(false).refuses(&options(normal), "looks like a bond line");
+        stack(false).refuses(&opening(normal), "looks like a bond line");
     }
 }
 
 #[test]
 fn slabs_and_specimens_that_do_not_fit_are_refused() {
     let stack = Stack::new(Axis::Y, [80, 12]);
-    let strict = Options {
+    let strict = Opening {
         tolerance: 0.01,
-        ..options(Axis::Y)
+        ..opening(Axis::Y)
     };
     stack.refuses(&strict, "rounded to 6 its volume changes by -4.10 %");
     // The opening of 11 voxels leaves 1 voxel to make for the slab of 12.
-    let gap = |voxels: f64| Options {
+    let gap = |voxels: f64| Opening {
         gap_m: Some(voxels * VOXEL),
-        ..options(Axis::Y)
+        ..opening(Axis::Y)
     };
     stack.refuses(&gap(0.5), "leaves no room");
     let tight = stack.build(&gap(1.0)).unwrap();
     assert!(near(tight.slab.origin_m[1], 20.0 * VOXEL));
     let (wood, adhesive) = (stack.wood, BitGrid::new([80, 50, 12]));
-    Stack { wood, adhesive }.refuses(&options(Axis::Y), "no adhesive voxel");
+    Stack { wood, adhesive }.refuses(&opening(Axis::Y), "no adhesive voxel");
     let [a, b] = [BitGrid::new([2, 3, 4]), BitGrid::new([2, 3, 5])];
     let coarse = Placed {
         voxel_m: 1.0,

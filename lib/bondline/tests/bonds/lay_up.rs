@@ -1,45 +1,24 @@
 //! Bonds of undamaged wood whose answer is counted by hand.
 
-use bondline::{Bond, Error, Layup, Pieces, Placed, Turn, lay_up};
+use bondline::{Bond, Error, Layup, Pieces, Placed, lay_up};
 use particle_file::BitGrid;
 use units::Axis;
 
-const VOXEL: f64 = 1.45e-6;
+use crate::{VOXEL, near, opening, placed, refused};
 
 fn layup() -> Layup {
     Layup {
-        normal: Axis::Y,
+        opening: opening(Axis::Y),
         slab_m: 4.0 * VOXEL,
-        voxels_per_cell: 2,
-        gap_m: None,
-        tolerance: 0.05,
-        turn: Turn::None,
+        quarters: 0,
         crop: false,
         drop_islands: false,
-    }
-}
-
-fn placed(grid: &BitGrid) -> Placed<'_> {
-    Placed {
-        origin_m: [0.0; 3],
-        voxel_m: VOXEL,
-        bits: grid.view(),
     }
 }
 
 fn two(bottom: &BitGrid, top: &BitGrid, layup: &Layup) -> Result<Bond, Error> {
     let (bottom, top) = (placed(bottom), placed(top));
     lay_up(&Pieces::Two { bottom, top }, layup)
-}
-
-#[track_caller]
-fn refused(found: Result<Bond, Error>, said: &str) {
-    let error = found.unwrap_err().to_string();
-    assert!(error.contains(said), "{error}");
-}
-
-fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() < 1e-6 * VOXEL
 }
 
 /// Grooved along z, 20 layers, with air above the bottom piece and below the top one.
@@ -85,10 +64,8 @@ fn faces_that_fit_into_one_another_close_further() {
     assert!(near(bond.top.origin_m[1], 14.0 * VOXEL));
     assert!(near(bond.top.origin_m[1] - bond.gap_m, 7.0 * VOXEL));
     assert_eq!(bond.severed, 63);
-    let tighter = Layup {
-        gap_m: Some(6.5 * VOXEL),
-        ..layup()
-    };
+    let mut tighter = layup();
+    tighter.opening.gap_m = Some(6.5 * VOXEL);
     refused(two(&bottom, &top, &tighter), "leaves no room");
 }
 
@@ -112,34 +89,26 @@ fn a_cut_piece_keeps_every_voxel_and_comes_back_to_its_place() {
 fn turning_moves_each_voxel_where_a_right_handed_turn_takes_it() {
     let bottom = BitGrid::from_fn([8, 4, 8], |x, _, _| x % 2 == 0);
     let all_but = |x, z| BitGrid::from_fn([8, 4, 8], move |i, _, k| (i, k) != (x, z));
-    for (turn, (x, z)) in [
-        (Turn::None, (1, 2)),
-        (Turn::Quarter, (2, 6)),
-        (Turn::Half, (6, 5)),
-        (Turn::ThreeQuarters, (5, 1)),
-    ] {
+    for (quarters, (x, z)) in [(0, (1, 2)), (1, (2, 6)), (2, (6, 5)), (3, (5, 1))] {
         let layup = Layup {
-            turn,
+            quarters,
             slab_m: 2.0 * VOXEL,
             ..layup()
         };
         let bond = two(&bottom, &all_but(1, 2), &layup).unwrap();
-        assert_eq!(bond.top.bits, all_but(x, z), "{turn:?}");
+        assert_eq!(bond.top.bits, all_but(x, z), "{quarters}");
     }
     // Four quarters about any axis are none.
     for normal in Axis::ALL {
         let top = BitGrid::from_fn([6, 6, 6], |x, y, z| (x + 2 * y + 3 * z) % 5 < 3);
         let bottom = BitGrid::from_fn([6, 6, 6], |x, y, z| (x * y + z) % 3 < 2);
-        let quarter = Layup {
-            normal,
-            turn: Turn::Quarter,
+        let whole = Layup {
+            opening: opening(normal),
+            quarters: 4,
             slab_m: 2.0 * VOXEL,
             ..layup()
         };
-        let mut turned = top.clone();
-        for _ in 0..4 {
-            turned = two(&bottom, &turned, &quarter).unwrap().top.bits;
-        }
+        let turned = two(&bottom, &top, &whole).unwrap().top.bits;
         assert_eq!(turned, top, "{normal}");
     }
 }
@@ -150,7 +119,7 @@ fn unequal_widths_are_refused_or_cropped() {
     let top = bottom.clone();
     assert!(two(&bottom, &top, &layup()).is_ok());
     let plywood = Layup {
-        turn: Turn::Quarter,
+        quarters: 1,
         ..layup()
     };
     let said = "8 x 16 voxels wide along z and x and the top piece, as it lies, 16 x 8";
