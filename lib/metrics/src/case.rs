@@ -20,7 +20,7 @@ pub fn case_but_cells(resolved: &str, cell_m: f64) -> Option<Table> {
     case.remove("output");
     for (table, keys) in OF_CELLS {
         if let Some(table) = case.get_mut(table).and_then(Value::as_table_mut) {
-            table.retain(|key, _| !keys.contains(&key.as_ref()));
+            table.retain(|key, _| !keys.contains(&key));
         }
     }
     case.iter_mut()
