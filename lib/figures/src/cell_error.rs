@@ -94,7 +94,9 @@ impl Table2 {
             Some((_, best)) if known.as_run.is_finite() => {
                 signed(known.as_run - best.extrapolated, decimals)
             }
-            None if known.has_error() && unit == "MPa" => known.told_pressure(decimals, " +- "),
+            None if known.has_error() && unit == "MPa" => {
+                known.told_pressure(decimals, " +- ", row.limit)
+            }
             None if known.has_error() => known.told(decimals).join(" +- "),
             _ => "-".into(),
         }

@@ -1,5 +1,8 @@
 //! Measures of a state by `wp-metrics`, with errors by the size of the cells.
 
+use toml::Value;
+use units::Pressure;
+
 use crate::Error;
 use crate::table::Table;
 
@@ -15,8 +18,9 @@ pub struct Known {
     pub error: f64,
 }
 
-/// Relative error of a pressure below which it is the one that the clamp holds.
+/// Relative error of a pressure below which it may be the one that the clamp holds, and how near that it is then.
 const HELD: f64 = 2e-4;
+const NEAR: f64 = 0.01;
 
 /// A quantity and where a table has it.
 pub(crate) struct Quantity {
@@ -109,24 +113,49 @@ impl Known {
         }
     }
 
-    /// The best that is known of it and, where there is one, its error, as texts.
+    /// The best that is known of it and, where there is one, its error to one digit at least, as texts.
     pub fn told(self, decimals: usize) -> Vec<String> {
-        let error = Some(self.error).filter(|_| self.has_error());
-        let error = error.map(|error| format!("{error:.decimals$}"));
+        let error = Some(self.error).filter(|error| self.has_error() && *error != 0.0);
+        let error = error.map(|error| fine(error, decimals));
         match self.best() {
             best if best.is_finite() => [fixed(best, decimals)].into_iter().chain(error).collect(),
             _ => vec!["-".into()],
         }
     }
 
-    /// The same of a pressure, with `between` before its error. Two sizes of cells agree to [`HELD`] where the clamp
-    /// holds it.
-    pub fn told_pressure(self, decimals: usize, between: &str) -> String {
-        match self.error <= HELD * self.extrapolated {
+    /// The same of a pressure of a press with this limit, NaN where none is known; with `between` before its error.
+    /// Two sizes of cells agree to [`HELD`] where the clamp holds it.
+    pub fn told_pressure(self, decimals: usize, between: &str, limit: f64) -> String {
+        let near = self.extrapolated > 0.0 && (self.extrapolated - limit).abs() <= NEAR * limit;
+        match near && self.error <= HELD * self.extrapolated {
             true => format!("{:.decimals$} at the limit", self.extrapolated),
             false => self.told(decimals).join(between),
         }
     }
+}
+
+/// The largest pressure of the press of a `resolved.toml` of this text, MPa; NaN where it has none.
+pub fn pressure_limit(resolved: &str) -> f64 {
+    let case: toml::Table = resolved.parse().unwrap_or_default();
+    let mpa = |table: &Value, key: &str| {
+        let pressure: units::Quantity<Pressure> = table.get(key)?.as_str()?.parse().ok()?;
+        Some(1e-6 * pressure.si())
+    };
+    let clamp = case.get("clamp");
+    let stages = clamp.and_then(|clamp| clamp.get("stage")?.as_array());
+    let stages = stages.into_iter().flatten();
+    let stages = stages.filter_map(|stage| mpa(stage, "pressure"));
+    let limit = clamp.and_then(|clamp| mpa(clamp, "max_pressure"));
+    limit.into_iter().chain(stages).fold(f64::NAN, f64::max)
+}
+
+/// A number with so many decimals, or as it takes for a digit that is not zero.
+fn fine(number: f64, decimals: usize) -> String {
+    let mut texts = [decimals, decimals + 1]
+        .map(|n| format!("{number:.n$}"))
+        .into_iter();
+    let told = texts.find(|text| text.parse() != Ok(0.0));
+    told.unwrap_or_else(|| format!("{number:.0e}"))
 }
 
 /// A number with so many decimals; 0 where they are all zero.
@@ -149,6 +178,30 @@ pub fn signed(number: f64, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two pressures of nothing once agreed "at the limit".
+    #[test]
+    fn a_pressure_is_at_the_limit_of_its_case_alone() {
+        let known = |extrapolated, error| Known {
+            as_run: extrapolated,
+            extrapolated,
+            error,
+        };
+        let programme = "[clamp]\n[[clamp.stage]]\npressure = \"1 MPa\"\n[[clamp.stage]]\npressure = \"0.2 MPa\"\n";
+        let limit = pressure_limit(programme);
+        assert_eq!(limit, 1.0);
+        assert!(pressure_limit("[clamp]\nclosing_speed = \"1 m/s\"\n").is_nan());
+        for (known, limit, told) in [
+            (known(0.995, 1e-5), limit, "0.99 at the limit"),
+            (known(0.98, 1e-5), limit, "0.98 +- 1e-5"),
+            (known(0.98, 0.004), limit, "0.98 +- 0.004"),
+            (known(0.995, 1e-5), f64::NAN, "0.99 +- 1e-5"),
+            (known(0.0, 0.0), limit, "0"),
+            (known(-3e-15, 2e-15), limit, "0 +- 2e-15"),
+        ] {
+            assert_eq!(known.told_pressure(2, " +- ", limit), told);
+        }
+    }
 
     #[test]
     fn what_rounds_to_zero_is_0() {

@@ -12,6 +12,7 @@ use crate::{Error, Labelled};
 /// Marks a folder as a run's.
 const MARK: &str = "bondline-run.toml";
 const SUMMARY: &str = "summary.json";
+pub(crate) const RESOLVED: &str = "resolved.toml";
 const MOST_BYTES: u64 = 1 << 20;
 /// Share of the gap below which a press is closed.
 const CLOSED: f64 = 1e-3;
@@ -31,6 +32,8 @@ pub struct RunEnd {
     pub gap_m: f64,
     /// The same over the whole way.
     pub gap_share: f64,
+    /// The smallest that it was at the end of a stage, of a programme that ended with a release.
+    held_share: Option<f64>,
     time_s: f64,
     command: Vec<String>,
 }
@@ -41,7 +44,7 @@ impl RunEnd {
     /// # Errors
     /// [`Error::Data`] for a summary that cannot be read.
     pub fn beside(file: &Path) -> Result<Option<Self>, Error> {
-        let Some(path) = summary_beside(file) else {
+        let Some([path, _]) = read_beside(file) else {
             return Ok(None);
         };
         let broken = |e: &dyn std::fmt::Display| {
@@ -73,12 +76,18 @@ impl RunEnd {
             end.starts_with(|c: char| c.is_ascii_lowercase()) && end.chars().all(plain)
         });
         let gap_m = number("gap_m");
+        let way_m = gap_m + number("travel_m");
+        let stages = summary.get("programme").and_then(Value::as_array);
+        let stages = stages.map_or(&[][..], Vec::as_slice);
+        let released = stages.last().is_some_and(|last| last["kind"] == "release");
+        let travels = stages.iter().filter_map(|stage| stage["travel_m"].as_f64());
         Self {
             end: end.unwrap_or("not-ended").replace('_', "-"),
             sound: sound.unwrap_or(false),
             reasons: texts("/verdict/reasons"),
             gap_m,
-            gap_share: gap_m / (gap_m + number("travel_m")),
+            gap_share: gap_m / way_m,
+            held_share: released.then(|| 1.0 - travels.fold(f64::NAN, f64::max) / way_m),
             time_s: number("time_s"),
             command: texts("/provenance/command"),
         }
@@ -87,14 +96,21 @@ impl RunEnd {
     /// What keeps its results from being those of a closed bond, in a few words.
     pub fn mark(&self) -> Option<String> {
         let open = self.gap_share > CLOSED;
+        let held = (self.held_share).filter(|held| self.gap_share - held > CLOSED);
         match self.end.as_str() {
             "not-ended" | "interrupted" => Some("not ended".into()),
             "failed" => Some("failed".into()),
             _ if !self.sound => Some("not sound".into()),
             _ if open => {
-                let percent = 100.0 * self.gap_share;
-                let digits = usize::from(percent < 1.0);
-                Some(format!("not closed, {percent:.digits$} % of the gap left"))
+                let gap = percent(self.gap_share);
+                Some(match held {
+                    None => format!("not closed, {gap} of the gap left"),
+                    Some(held) if held > CLOSED => {
+                        let held = percent(held);
+                        format!("not closed, {held} of the gap left, {gap} after its release")
+                    }
+                    Some(_) => format!("opened by its release, {gap} of the gap"),
+                })
             }
             "time-limit" => Some("not closed".into()),
             _ => None,
@@ -136,10 +152,11 @@ impl RunEnd {
     }
 }
 
-/// Where the summary of the run is whose folder `file` lies in.
-pub fn summary_beside(file: &Path) -> Option<PathBuf> {
+/// What is read of the run whose folder `file` lies in: its summary and its case.
+pub fn read_beside(file: &Path) -> Option<[PathBuf; 2]> {
     let folder = file.parent()?;
-    folder.join(MARK).is_file().then(|| folder.join(SUMMARY))
+    let read = || [SUMMARY, RESOLVED].map(|name| folder.join(name));
+    folder.join(MARK).is_file().then(read)
 }
 
 impl Labelled {
@@ -153,6 +170,12 @@ impl Labelled {
         }
         Ok(self)
     }
+}
+
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    let digits = usize::from(percent < 1.0);
+    format!("{percent:.digits$} %")
 }
 
 /// A time as a case takes it, rounded up to one digit.
@@ -202,6 +225,38 @@ mod tests {
         let set = RunEnd::of(&summary("set", 1e-6));
         assert_eq!(set.mark().unwrap(), "not closed, 10 % of the gap left");
         assert!(!set.advice().unwrap().contains("--set"));
+    }
+
+    /// A bond line that trapped air pushed open again was once "not closed".
+    #[test]
+    fn a_press_that_its_release_opened_says_so() {
+        let mark = |held_um: f64, gap_m: f64, last: &str| {
+            let mut told = summary("programme", gap_m);
+            told["programme"] = serde_json::json!([
+                { "kind": "hold", "travel_m": 1e-6 * held_um },
+                { "kind": last, "travel_m": 1e-5 - gap_m },
+            ]);
+            RunEnd::of(&told).mark()
+        };
+        for (held_um, gap_m, last, said) in [
+            (
+                10.0,
+                3.5e-6,
+                "release",
+                "opened by its release, 35 % of the gap",
+            ),
+            (
+                8.0,
+                9.9e-6,
+                "release",
+                "not closed, 20 % of the gap left, 99 % after its release",
+            ),
+            (8.0, 2e-6, "release", "not closed, 20 % of the gap left"),
+            (8.0, 2e-6, "hold", "not closed, 20 % of the gap left"),
+        ] {
+            assert_eq!(mark(held_um, gap_m, last).unwrap(), said);
+        }
+        assert_eq!(mark(10.0, 0.0, "release"), None);
     }
 
     #[test]

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use particle_file::ParticleFile;
 use serde_json::Value;
 
-use crate::known::SIDES;
+use crate::known::{SIDES, pressure_limit};
+use crate::run_end::RESOLVED;
 use crate::table::Table;
 use crate::{Error, Known, RunEnd};
 
@@ -50,6 +51,8 @@ pub(crate) struct Row {
     pub(crate) paper: Option<&'static Paper>,
     /// How the run ended.
     pub(crate) end: Option<RunEnd>,
+    /// Pressure limit of its press, MPa; NaN where that is not known.
+    pub(crate) limit: f64,
 }
 
 /// A line of the paper's Table 2: its adhesive; its case, and names that a case of ours goes by when it is
@@ -226,6 +229,7 @@ impl Row {
         let same = |Paper(adhesive, [_, names @ ..], _): &&Paper| {
             adhesive.eq_ignore_ascii_case(&source.adhesive) && names.contains(&name.as_str())
         };
+        let (end, limit) = end(&source.path, files[0])?.unzip();
         Ok(Self {
             adhesive: source.adhesive.clone(),
             case: source.name.clone(),
@@ -233,7 +237,8 @@ impl Row {
             known: Known::read(&table)?,
             slab: slabs[total],
             paper: PAPER.iter().find(same),
-            end: end(&source.path, files[0])?,
+            end,
+            limit: limit.unwrap_or(f64::NAN),
         })
     }
 
@@ -248,8 +253,8 @@ impl Row {
     }
 }
 
-/// How the run ended whose last state is `state`, measured in `table`: either lies in its folder.
-fn end(table: &Path, named: &str) -> Result<Option<RunEnd>, Error> {
+/// How the run ended whose last state is `named`, measured in `table`, and its pressure limit: either lies in its folder.
+fn end(table: &Path, named: &str) -> Result<Option<(RunEnd, f64)>, Error> {
     let state = Path::new(named);
     if state.file_name() != Some(FINAL.as_ref()) {
         return Ok(None);
@@ -257,7 +262,12 @@ fn end(table: &Path, named: &str) -> Result<Option<RunEnd>, Error> {
     for place in [table, state] {
         if let Some(end) = RunEnd::beside(place)? {
             is_of(table, named, &place.with_file_name(FINAL))?;
-            return Ok(Some(end));
+            let mut case = String::new();
+            let file = File::open(place.with_file_name(RESOLVED));
+            // Without its case the limit is not known.
+            let read = file.and_then(|file| file.take(MOST_BYTES).read_to_string(&mut case));
+            let limit = read.map_or(f64::NAN, |_| pressure_limit(&case));
+            return Ok(Some((end, limit)));
         }
     }
     Ok(None)

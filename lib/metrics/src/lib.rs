@@ -6,6 +6,7 @@
 //! Lengths are metres, and all results are independent of the number of threads.
 
 mod bond_line;
+mod case;
 mod cell_error;
 mod compare;
 mod datum;
@@ -25,6 +26,7 @@ mod state;
 pub mod table;
 
 pub use bond_line::{BondLine, Filling, bond_line};
+pub use case::case_but_cells;
 pub use cell_error::{CellError, Extrapolated, LEAST_RATIO, cell_error, extrapolated};
 pub use compare::{Agreement, compare};
 pub use datum::{Datum, Reference};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use figures::{Known, RunEnd, Table, fixed};
+use figures::{Known, RunEnd, Table, fixed, pressure_limit};
 use particle_file::ParticleFile;
 use serde_json::Value;
 
@@ -28,6 +28,8 @@ pub struct RunFolder {
     pub(crate) wp: [Known; 3],
     /// At the end, MPa.
     pub(crate) pressure: Known,
+    /// The most that the press may come to, MPa; NaN where that is not known.
+    pub(crate) limit: f64,
     /// What is odd about the size of its voxels.
     pub(crate) voxel_doubt: Option<String>,
 }
@@ -79,6 +81,7 @@ impl RunFolder {
             setup: Setup::read(&folder.path, &case, &resolved),
             wp,
             pressure,
+            limit: pressure_limit(&resolved),
             summary,
             resolved,
         })

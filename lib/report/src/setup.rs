@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::SystemTime;
 
-use particle_file::ParticleFile;
+use particle_file::{Header, ParticleFile};
 use toml::{Table, Value};
 
 /// What a run pressed. Runs of the same are told of together.
@@ -17,10 +17,8 @@ pub(crate) struct Setup {
     pub(crate) press: String,
     /// Of the run's summary.
     pub(crate) date: String,
-    /// Of the specimen's file.
-    hash: Option<u64>,
-    /// Adhesive and contact, as the case has them.
-    tables: [Option<Value>; 2],
+    /// Content of the bond file, and the case but for cells and scheme, where both are known.
+    pressed: Option<(u64, Table)>,
 }
 
 /// Laws of viscosity, and effects, by their tables in a case.
@@ -35,39 +33,41 @@ const EFFECTS: [(&str, &str); 3] = [
     ("water", "loses water"),
     ("surface_tension", "menisci"),
 ];
+/// The tool that presses: its inputs are a case and a bond file.
+const PRESS: &str = "mpm-run";
+/// Keys of one scheme, besides [integrator].
+const OF_SCHEMES: [(&str, &str); 2] = [("clamp", "pid"), ("contact", "separation")];
 /// The tool that grows specimens, and what marks its record beside one.
 const GROWN: &str = "\"tool\": \"synth-xct\"";
 
 impl Setup {
     /// Of the run in `folder` with this case; what is not known is a dash.
-    pub(crate) fn read(folder: &Path, case: &str, resolved: &str) -> Self {
-        let resolved: Table = resolved.parse().unwrap_or_default();
+    pub(crate) fn read(folder: &Path, case: &str, text: &str) -> Self {
+        let resolved: Table = text.parse().unwrap_or_default();
         let mut setup = Self {
             specimen: "-".into(),
             size: "-".into(),
             adhesive: format!("{case}: {}", adhesive(&resolved)),
             press: press(&resolved),
             date: date(&folder.join("summary.json")).unwrap_or_else(|| "-".into()),
-            tables: ["adhesive", "contact"].map(|table| resolved.get(table).cloned()),
             ..Self::default()
         };
         if let Ok(file) = ParticleFile::open(folder.join("final.mpts")) {
             setup.of_state(&file);
+            setup.pressed = pressed(file.header(), text);
         }
         setup
     }
 
-    /// Whether another run is known to press the same specimen with the same adhesive, whatever its scheme and cells.
-    pub(crate) fn is_pressed_as<'a>(&'a self, other: &'a Self) -> bool {
-        let of = |setup: &'a Self| (setup.hash, &setup.press, &setup.tables);
-        self.hash.is_some() && of(self) == of(other)
+    /// Whether another run is known to be of the same bond and case, whatever its scheme and cells.
+    pub(crate) fn is_pressed_as(&self, other: &Self) -> bool {
+        self.pressed.is_some() && self.pressed == other.pressed
     }
 
     fn of_state(&mut self, file: &ParticleFile) {
         let header = file.header();
         let first = header.provenance.first();
-        if let Some((path, hash)) = first.and_then(|made| made.inputs.first()) {
-            self.hash = Some(*hash);
+        if let Some((path, _)) = first.and_then(|made| made.inputs.first()) {
             let name = Path::new(path).file_name().unwrap_or_default();
             self.specimen = name.to_string_lossy().into_owned();
             let record = std::fs::read_to_string(format!("{path}.provenance.json"));
@@ -78,6 +78,20 @@ impl Setup {
         let voxel = (1e6 * header.voxel_m) as f32;
         self.size = format!("{} um, voxels of {voxel} um", edges.join(" x "));
     }
+}
+
+/// What the run pressed that ended with this state, and how, but for cells and scheme.
+fn pressed(state: &Header, resolved: &str) -> Option<(u64, Table)> {
+    let run = state.provenance.iter().rfind(|made| made.tool == PRESS)?;
+    let (_, bond) = run.inputs.get(1)?;
+    let cell_m = state.attribute("cell_m")?.parse().ok()?;
+    let mut case = metrics::case_but_cells(resolved, cell_m)?;
+    case.remove("integrator");
+    for (table, key) in OF_SCHEMES {
+        let table = case.get_mut(table).and_then(Value::as_table_mut);
+        table.and_then(|table| table.remove(key));
+    }
+    Some((*bond, case))
 }
 
 /// A text of a table of the case.
@@ -130,6 +144,8 @@ fn date(file: &Path) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use particle_file::{Draft, Kind, Provenance};
+
     use super::*;
 
     #[test]
@@ -147,6 +163,63 @@ mod tests {
         assert_eq!(programme.adhesive, "a.toml: Cross law, cures");
         assert_eq!(programme.press, "ramp 1 MPa 2 s, hold 5 min");
         assert_eq!(read("not TOML").press, "-");
+    }
+
+    /// Runs with air, stopped early, with another travel or slab were once held against the plain one.
+    #[test]
+    fn the_same_press_has_the_same_bond_and_case_but_cells_and_scheme() {
+        let read = |resolved: &str, cell_m: f64, bond: u64| {
+            let folder = tempfile::tempdir().unwrap();
+            let mut header = Header::new(Kind::State, 1.0, 1, [0.0; 3], [1.0; 3]);
+            header.set_attribute("cell_m", cell_m);
+            for (tool, inputs) in [
+                ("xct2particles", vec![("stack.tif".into(), 1)]),
+                (
+                    PRESS,
+                    vec![("a.toml".into(), 2), ("bond.mpts".into(), bond)],
+                ),
+            ] {
+                header.provenance.push(Provenance {
+                    tool: tool.into(),
+                    version: String::new(),
+                    command: Vec::new(),
+                    inputs,
+                });
+            }
+            let mut state = Vec::new();
+            Draft::new(header).write_to(&mut state).unwrap();
+            std::fs::write(folder.path().join("final.mpts"), state).unwrap();
+            Setup::read(folder.path(), "a.toml", resolved)
+        };
+        let case = "[grid]\ncell = \"2 um\"\n[contact]\ninfluence_length = \"0.01 cell\"\n[clamp]\nstop = \"closed\"\n\
+            time_limit = \"4e-5 s\" # default\ntravel = \"1.5e-5 m\" # default\n[integrator]\nscheme = \"implicit\"\n";
+        let plain = read(case, 2e-6, 3);
+        let other = case
+            .replace("2 um", "1 um")
+            .replace("0.01", "0.02")
+            .replace("4e-5", "5e-5")
+            .replace("1.5e-5 m", "15 um")
+            .replace("implicit", "explicit")
+            + "[output]\nsnapshots = 2\n";
+        assert!(read(&other, 1e-6, 3).is_pressed_as(&plain));
+        let metres = case.replace("0.01 cell", "20 nm");
+        assert!(read(&metres, 2e-6, 3).is_pressed_as(&plain));
+        assert!(!read(case, 2e-6, 4).is_pressed_as(&plain));
+        assert!(!read(case, 1e-6, 3).is_pressed_as(&plain));
+        for (is, was) in [
+            ("[integrator]", "[air]\npressure = \"1 bar\"\n[integrator]"),
+            ("[integrator]", "[boundary]\nx = \"periodic\"\n[integrator]"),
+            ("\"closed\"", "\"0.02 ms\""),
+            ("\"4e-5 s\" # default", "\"4e-5 s\""),
+            ("1.5e-5", "1.4e-5"),
+            (
+                "[integrator]",
+                "[[clamp.stage]]\ncontact = true\n[integrator]",
+            ),
+        ] {
+            let other = read(&case.replace(is, was), 2e-6, 3);
+            assert!(!other.is_pressed_as(&plain), "{was}");
+        }
     }
 
     #[test]

@@ -59,7 +59,7 @@ fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
         [vec![label.clone()], wp(known).to_vec(), nothing.to_vec()].concat()
     };
     let run = |run: &RunFolder| {
-        let pressure = run.pressure.told_pressure(2, " \u{b1} ");
+        let pressure = run.pressure.told_pressure(2, " \u{b1} ", run.limit);
         let end = run.end.mark().unwrap_or_else(|| ended(&run.end));
         let label = vec![run.label.clone()];
         [label, wp(&run.wp).to_vec(), vec![pressure, end]].concat()

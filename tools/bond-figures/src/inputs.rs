@@ -6,7 +6,7 @@ use std::os::fd::AsRawFd;
 use std::path::{Path, PathBuf};
 
 use cli::{Failure, InputRecord, Output, Record};
-use figures::{Case, Labelled, summary_beside};
+use figures::{Case, Labelled, read_beside};
 use particle_file::ParticleFile;
 
 /// The files of a figure; standard input is among them as a temporary file.
@@ -14,8 +14,8 @@ pub(crate) struct Inputs {
     files: Vec<Labelled>,
     /// The files as the user named them.
     given: Vec<PathBuf>,
-    /// Summaries of the runs in whose folders the files lie.
-    summaries: Vec<PathBuf>,
+    /// Summaries and cases of the runs in whose folders the files lie.
+    beside: Vec<PathBuf>,
     /// Keeps the copy of standard input, which has no name, until the figure is written.
     _spooled: Option<File>,
 }
@@ -40,14 +40,14 @@ impl Inputs {
             }
             file
         });
-        let beside = given.iter().filter_map(|path| summary_beside(path));
-        let mut summaries: Vec<PathBuf> = beside.filter(|path| path.is_file()).collect();
-        summaries.sort();
-        summaries.dedup();
+        let beside = given.iter().filter_map(|path| read_beside(path)).flatten();
+        let mut beside: Vec<PathBuf> = beside.filter(|path| path.is_file()).collect();
+        beside.sort();
+        beside.dedup();
         Ok(Self {
             files: placed.collect(),
             given,
-            summaries,
+            beside,
             _spooled: spooled,
         })
     }
@@ -94,14 +94,14 @@ impl Inputs {
         &'a self,
         outputs: impl IntoIterator<Item = &'a Output>,
     ) -> Result<(), Failure> {
-        let read = self.given.iter().chain(&self.summaries);
+        let read = self.given.iter().chain(&self.beside);
         cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs)
     }
 
     /// The provenance of an output made of these files.
     pub(crate) fn record(&self) -> Result<Record, Failure> {
         let files = self.files.iter().map(|file| &file.path).zip(&self.given);
-        let files = files.chain(self.summaries.iter().zip(&self.summaries));
+        let files = files.chain(self.beside.iter().zip(&self.beside));
         let hashed =
             files.map(|(file, given)| InputRecord::of_file(file, given.display().to_string()));
         let hashed = hashed.collect::<Result<_, _>>()?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use cli::Failure;
 use metrics::table::PenetrationRows;
-use metrics::{Datum, LEAST_RATIO, State, cell_error, extrapolated, penetration};
+use metrics::{Datum, LEAST_RATIO, State, case_but_cells, cell_error, extrapolated, penetration};
 use toml::{Table, Value};
 
 use crate::arguments::Arguments;
@@ -64,31 +64,19 @@ pub fn carry_on(
 }
 
 /// A table in which the cases of two runs differ by more than cells of these edges (m), where both lie with their states.
-fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<&'static str> {
-    let case = |state: &str| -> Option<Table> {
-        let folders = Path::new(state).ancestors().skip(1).take(2);
+fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<String> {
+    let case = |side: usize| -> Option<Table> {
+        let folders = Path::new(states[side]).ancestors().skip(1).take(2);
         let mut texts = folders.map(|folder| fs::read_to_string(folder.join("resolved.toml")));
-        texts.find_map(Result::ok)?.parse().ok()
-    };
-    let (run, finer) = (case(states[0])?, case(states[1])?);
-    let tables = ["adhesive", "air", "contact", "clamp", "integrator"];
-    let differs = |table: &&str| of_run(&run, table, cells[0]) != of_run(&finer, table, cells[1]);
-    tables.into_iter().find(differs)
-}
-
-/// A table of a case without what goes with the size of the cells or is found from the bond, lengths in cells as m.
-fn of_run(case: &Table, table: &str, cell_m: f64) -> Option<Table> {
-    let mut table = case.get(table)?.as_table()?.clone();
-    for key in ["time_limit", "travel", "cfl", "tolerance"] {
-        table.remove(key);
-    }
-    for value in table.values_mut() {
-        let cells = value.as_str().and_then(|text| text.strip_suffix(" cell"));
-        if let Some(cells) = cells.and_then(|cells| cells.parse::<f64>().ok()) {
-            *value = Value::String(format!("{:.4e} m", cells * cell_m));
+        let mut case = case_but_cells(&texts.find_map(Result::ok)?, cells[side])?;
+        if let Some(clamp) = case.get_mut("clamp").and_then(Value::as_table_mut) {
+            clamp.remove("time_limit");
         }
-    }
-    Some(table)
+        Some(case)
+    };
+    let (run, finer) = (case(0)?, case(1)?);
+    let mut tables = run.keys().chain(finer.keys());
+    tables.find(|key| run.get(*key) != finer.get(*key)).cloned()
 }
 
 /// Whether two states have the same wood, wherever it is now.

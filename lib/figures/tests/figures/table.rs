@@ -77,6 +77,10 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
     let folder = Folder::new();
     let case = |name: &str, text: &str| case("pf", name, folder.file(name, text));
     let plain = wp("a.mpts", [8.0, 9.0, 8.5]);
+    let pressed_to = |state: &str, pressure: &str| {
+        let finer = finer(6.0).replace("2.1e6,3e5", pressure);
+        finer.replace("a.mpts", state)
+    };
     let whole = finer(8.5);
     let pressed = whole.lines().map(|line| {
         let cells: Vec<&str> = line.split(',').take(7).collect();
@@ -87,8 +91,16 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         case("frictionless", &plain),
         case("implicit", &finer(7.65)),
         case("implicit-frictionless", &finer(6.0).replace("7.15", "6.5")),
-        case("held", &finer(6.0).replace("2.1e6,3e5", "2.5e6,4e0")),
+        case("held", &pressed_to("final.mpts", "2.5e6,4e0")),
+        case("at its limit", &pressed_to("a.mpts", "2.5e6,4e0")),
+        case("let go", &pressed_to("final.mpts", "0,0")),
     ];
+    folder.file("bondline-run.toml", "");
+    folder.file(
+        "summary.json",
+        r#"{"end": "closed", "verdict": {"sound": true}}"#,
+    );
+    folder.file("resolved.toml", "[clamp]\nmax_pressure = \"2.5 MPa\"\n");
     let table = Table2::read(&runs).unwrap();
     assert!(table.has_cell_errors());
     let rows = written(|out| table.write_cell_errors(out));
@@ -120,6 +132,9 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         (" implicit ", "4.50 +- 0.50"),
         (" implicit ", "2.100 +- 0.300"),
         (" held ", " 2.500 at the limit"),
+        // Where no case tells the limit, and where two pressures of nothing agree.
+        (" at its limit ", " 2.500 +- 4e-6"),
+        (" let go ", "                  0"),
         // A pressure that the table does not have is not made up.
         (" frictionless", " -"),
     ] {

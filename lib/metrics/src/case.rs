@@ -1,0 +1,48 @@
+//! What the case of a run says whatever its cells.
+
+use toml::{Table, Value};
+use units::{Length, Quantity};
+
+/// Ends a line of a `resolved.toml` whose key was not given.
+const DEFAULT: &str = "# default";
+/// Keys that go with the size of cells.
+const OF_CELLS: [(&str, &[&str]); 2] = [
+    ("grid", &["cell", "shape", "points_per_direction", "domain"]),
+    ("integrator", &["cfl", "tolerance"]),
+];
+
+/// The case of a run in cells of `cell_m` (m) by the text of its `resolved.toml`, without `[output]`, a default time limit
+/// and what goes with the size of the cells, lengths in metres; none where the text is no case.
+pub fn case_but_cells(resolved: &str, cell_m: f64) -> Option<Table> {
+    let limit = |line: &&str| line.starts_with("time_limit") && line.ends_with(DEFAULT);
+    let lines = resolved.lines().filter(|line| !limit(line));
+    let mut case: Table = lines.collect::<Vec<_>>().join("\n").parse().ok()?;
+    case.remove("output");
+    for (table, keys) in OF_CELLS {
+        if let Some(table) = case.get_mut(table).and_then(Value::as_table_mut) {
+            table.retain(|key, _| !keys.contains(&key));
+        }
+    }
+    case.iter_mut()
+        .for_each(|(_, value)| in_metres(value, cell_m));
+    Some(case)
+}
+
+/// Lengths as metres to five digits, of which more are rounding.
+fn in_metres(value: &mut Value, cell_m: f64) {
+    match value {
+        Value::String(text) => {
+            let cells = text.trim().strip_suffix("cell");
+            let cells = cells.and_then(|cells| cells.trim().parse::<f64>().ok());
+            let length = || text.parse::<Quantity<Length>>().ok().map(Quantity::si);
+            if let Some(metres) = cells.map(|cells| cells * cell_m).or_else(length) {
+                *text = format!("{metres:.4e} m");
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(|value| in_metres(value, cell_m)),
+        Value::Table(table) => {
+            (table.iter_mut()).for_each(|(_, value)| in_metres(value, cell_m));
+        }
+        _ => {}
+    }
+}
