@@ -82,7 +82,7 @@ fn of_run(case: &Table, table: &str, cell_m: f64) -> Option<Table> {
     for key in ["time_limit", "travel", "cfl", "tolerance"] {
         table.remove(key);
     }
-    for value in table.values_mut() {
+    for (_, value) in table.iter_mut() {
         let cells = value.as_str().and_then(|text| text.strip_suffix(" cell"));
         if let Some(cells) = cells.and_then(|cells| cells.parse::<f64>().ok()) {
             *value = Value::String(format!("{:.4e} m", cells * cell_m));
