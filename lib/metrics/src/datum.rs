@@ -36,7 +36,7 @@ impl fmt::Display for Reference {
 }
 
 /// A [`Reference`] found in a state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Datum {
     /// Levels along the normal, m.
     Level {
@@ -85,9 +85,11 @@ impl Datum {
         let middle = 0.5 * (bottom + top);
         match reference {
             Reference::Adherend => Ok(level(bottom, top)),
-            Reference::Fit => fit::plane(state, middle)
-                .map(Datum::Tilted)
-                .map_err(|why| Error::Usage(format!("{why}; use --reference mid"))),
+            Reference::Fit => fit::plane(state, middle).map(Datum::Tilted).map_err(|why| {
+                Error::Usage(format!(
+                    "{why}; wp-metrics --reference mid takes a level plane"
+                ))
+            }),
             _ => Ok(level(middle, middle)),
         }
     }
@@ -106,6 +108,14 @@ impl Datum {
             .map(|a| wood.bits.dims()[a])
             .product();
         bondline::doubt(severed, area as u64)
+    }
+
+    /// A sentence where a fitted plane may not run between the adherends: how it is turned, and why.
+    pub fn unsure(&self) -> Option<String> {
+        match self {
+            Datum::Level { .. } => None,
+            Datum::Tilted(plane) => plane.doubt.clone(),
+        }
     }
 
     /// How a fitted plane is turned.

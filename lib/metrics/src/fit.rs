@@ -16,7 +16,7 @@ const SURFACES: f64 = 0.25;
 const SAME: f64 = 1e-3;
 
 /// A plane across the bond: coordinate along the normal = `level` + `slope` . (u - centre).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     normal: Axis,
     axes: [Axis; 2],
@@ -25,6 +25,8 @@ pub struct Plane {
     slope: [f64; 2],
     /// Standard errors of the slopes.
     error: [f64; 2],
+    /// A sentence where it may not run between the adherends.
+    pub(crate) doubt: Option<String>,
 }
 
 /// By how many degrees a level plane is turned, right-handed, about x, y and z to rise as a fitted one.
@@ -109,71 +111,87 @@ impl Plane {
         Some(Self {
             level,
             slope,
-            ..*self
+            ..self.clone()
         })
     }
 
     /// It with its standard errors, by the planes through the `middles` without one quarter of the bond area (jackknife):
     /// surfaces are rough over many columns, whose scatter about the plane would tell errors ten times too small. Quarters are
     /// the fewest parts that tell a plane's three numbers. Slopes of 200 crops of bondline-acer-240, 32 to 128 voxels
-    /// wide, are off by 1.5 to 2.5 such errors (rms).
-    fn with_errors(self, middles: &[Middle], state: &State, opening: f64) -> Result<Self, String> {
+    /// wide, are off by 1.5 to 2.5 such errors (rms). A `kept` start plane is no fit: its errors are those about their mean.
+    fn with_errors(
+        mut self,
+        middles: &[Middle],
+        state: &State,
+        opening: f64,
+        kept: bool,
+    ) -> Result<Self, String> {
         let across = state.across();
         let n = state.normal.index();
         let half = |uv: [f64; 2], a: usize| across.columns[a] > 1 && uv[a] >= self.centre[a];
-        let mut off = Vec::new();
+        let mut bare = false;
+        let mut without = Vec::new();
         for quarter in QUARTERS {
             if [0, 1].iter().any(|&a| quarter[a] && across.columns[a] == 1) {
                 continue;
             }
             let rest = |(uv, _): &&Middle| [0, 1].map(|a| half(*uv, a)) != quarter;
             let rest: Vec<Middle> = middles.iter().filter(rest).copied().collect();
-            let without = (rest.len() < middles.len())
+            let plane = (rest.len() < middles.len())
                 .then(|| self.through(&rest, across.columns))
-                .flatten()
-                .ok_or_else(|| too_few(middles))?;
-            off.push([
-                without.level - self.level,
-                without.slope[0] - self.slope[0],
-                without.slope[1] - self.slope[1],
-            ]);
+                .flatten();
+            bare |= plane.is_none();
+            without.extend(plane.map(|p| [p.level, p.slope[0], p.slope[1]]));
         }
-        let share = (off.len() - 1) as f64 / off.len() as f64;
+        if without.len() < 2 {
+            return Err(too_few(middles));
+        }
+        let count = without.len() as f64;
+        let about = match kept {
+            true => [0, 1, 2].map(|i| without.iter().map(|p| p[i]).sum::<f64>() / count),
+            false => [self.level, self.slope[0], self.slope[1]],
+        };
         let error = |of: [f64; 3]| {
-            let each = off.iter().map(|d| (0..3).map(|i| d[i] * of[i]).sum());
-            (share * each.map(|d: f64| d * d).sum::<f64>()).sqrt()
+            let each = without
+                .iter()
+                .map(|p| (0..3).map(|i| (p[i] - about[i]) * of[i]).sum());
+            ((count - 1.0) / count * each.map(|d: f64| d * d).sum::<f64>()).sqrt()
         };
-        let known = Self {
-            error: [error([0.0, 1.0, 0.0]), error([0.0, 0.0, 1.0])],
-            ..self
+        self.error = [error([0.0, 1.0, 0.0]), error([0.0, 0.0, 1.0])];
+        let said = match kept {
+            true => "no tilted plane cuts as little wood: the level one is kept,".into(),
+            false => format!("the plane fitted to {} columns is", middles.len()),
         };
+        let said = format!("{said} {}", self.tilt());
+        let mut unsure = 0.0_f64;
         for quarter in QUARTERS {
             let corner = [0, 1].map(|a| match quarter[a] {
                 true => state.box_max_m[self.axes[a].index()],
                 false => state.box_min_m[self.axes[a].index()],
             });
+            if !(state.box_min_m[n]..=state.box_max_m[n]).contains(&self.coordinate(corner)) {
+                return Err(format!(
+                    "{said} and beyond the specimen at a corner of the bond area"
+                ));
+            }
             let [u, v] = [0, 1].map(|a| corner[a] - self.centre[a]);
-            let height = self.coordinate(corner);
             // Two standard errors are 95 %.
-            let unsure = 2.0 * error([1.0, u, v]);
-            let why = if unsure > 0.5 * opening {
-                format!(
-                    "known to {:.1} um at a corner of the bond area, which is more than half of the {:.1} um between the adherends",
-                    1e6 * unsure,
-                    1e6 * opening
-                )
-            } else if !(state.box_min_m[n]..=state.box_max_m[n]).contains(&height) {
-                "beyond the specimen at a corner of the bond area".into()
-            } else {
-                continue;
-            };
-            return Err(format!(
-                "the plane fitted to {} columns is {} and {why}",
-                middles.len(),
-                known.tilt()
-            ));
+            unsure = unsure.max(2.0 * error([1.0, u, v]));
         }
-        Ok(known)
+        self.doubt = if bare {
+            Some(format!(
+                "{said} and hardly known: a quarter of the bond area shows too few surfaces"
+            ))
+        } else if unsure > 0.5 * opening {
+            Some(format!(
+                "{said} and known to {:.1} um at a corner of the bond area, which is more than half of the {:.1} um between the adherends",
+                1e6 * unsure,
+                1e6 * opening
+            ))
+        } else {
+            kept.then_some(said)
+        };
+        Ok(self)
     }
 }
 
@@ -181,7 +199,7 @@ const QUARTERS: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], 
 
 fn too_few(middles: &[Middle]) -> String {
     format!(
-        "no plane can be fitted: only {} columns show the surfaces of both adherends, and not in every quarter of the bond area",
+        "no plane can be fitted: only {} columns show the surfaces of both adherends, in too small a part of the bond area",
         middles.len()
     )
 }
@@ -197,7 +215,7 @@ fn too_few(middles: &[Middle]) -> String {
 /// off into the lumens.
 ///
 /// # Errors
-/// A sentence: too few open columns; a plane that is not known to run between the adherends or leaves the specimen.
+/// A sentence: too few open columns; a plane that leaves the specimen.
 pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, String> {
     let across = state.across();
     let extent = across.columns.map(|n| n as f64 * across.width_m);
@@ -208,20 +226,26 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, String> {
         level: start,
         slope: [0.0; 2],
         error: [0.0; 2],
+        doubt: None,
     };
+    let mut kept = false;
     let mut openings = Openings::along(state, &across, &plane);
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         let (middles, _) = openings.narrowest(&across);
         let next = plane.through(&middles, across.columns);
         let next = next.ok_or_else(|| too_few(&middles))?;
+        if next == plane {
+            break;
+        }
         let next_openings = Openings::along(state, &across, &next);
-        if next == plane || next_openings.open.len() < openings.open.len() {
+        if next_openings.open.len() < openings.open.len() {
+            kept = round == 0;
             break;
         }
         (plane, openings) = (next, next_openings);
     }
     let (middles, opening) = openings.narrowest(&across);
-    plane.with_errors(&middles, state, opening)
+    plane.with_errors(&middles, state, opening, kept)
 }
 
 /// The openings between the adherends along a plane.

@@ -26,6 +26,9 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
     let line = bondline::find(specimen, normal).map_err(|error| error.what().to_owned())?;
     let middle = wood.origin_m[normal.index()] + line.middle() * wood.voxel_m;
     let plane = fit::plane(&State::of_specimen(specimen, normal), middle)?;
+    if let Some(doubt) = &plane.doubt {
+        return Err(doubt.clone());
+    }
     let turn = turn_to(normal, plane.up());
     let tilt = plane.tilt();
     let old = wood.bits.dims();

@@ -84,31 +84,73 @@ fn a_tilt_is_found_between_thin_walls() {
     }
 }
 
+fn boxed(letter: fn([usize; 3]) -> char) -> Stack {
+    Stack::new([12, 60, 12], move |x, y, z| letter([x, y, z]))
+}
+
+/// Why the plane of a stack is not turned level.
+fn not_levelled(stack: &Stack) -> String {
+    let specimen = Specimen::new(placed(&stack.wood), placed(&stack.adhesive)).unwrap();
+    metrics::level(&specimen, Axis::Y).err().unwrap()
+}
+
+/// What is said of a plane that gives numbers all the same, but is not turned level.
+fn doubted(stack: &Stack) -> String {
+    let state = stack.state(Axis::Y);
+    let datum = Datum::find(Reference::Fit, &state).unwrap();
+    assert!(penetration(&state, &datum)[2].wp_m > 0.0);
+    let doubt = datum.unsure().unwrap();
+    assert_eq!(doubt, not_levelled(stack));
+    assert!(doubt.contains(&datum.tilt().unwrap().to_string()));
+    doubt
+}
+
 /// A fit to surfaces that show in a part of the area, or that bend, told a tilt of any size.
 #[test]
 fn a_plane_that_is_not_known_is_refused() {
-    let refusal = |letter: fn([usize; 3]) -> char| {
-        let stack = Stack::new([12, 60, 12], move |x, y, z| letter([x, y, z]));
-        let error = Datum::find(Reference::Fit, &stack.state(Axis::Y)).unwrap_err();
-        assert!(error.is_usage());
-        let specimen = Specimen::new(placed(&stack.wood), placed(&stack.adhesive)).unwrap();
-        let level = metrics::level(&specimen, Axis::Y).err().unwrap();
-        assert!(error.to_string().contains(&level), "{error}, {level}");
-        level
-    };
     // Wood above four columns of one quarter alone.
-    let narrow = refusal(|[x, y, z]| match y {
+    let narrow = boxed(|[x, y, z]| match y {
         28..32 => 'a',
         32.. if x > 3 || z > 0 => ' ',
         _ => 'w',
     });
-    assert!(narrow.contains("only 4 columns"), "{narrow}");
+    let error = Datum::find(Reference::Fit, &narrow.state(Axis::Y)).unwrap_err();
+    assert!(error.is_usage());
+    let refused = not_levelled(&narrow);
+    assert!(refused.contains("only 4 columns"), "{refused}");
+    assert!(error.to_string().contains(&refused), "{error}");
     // A step of the gap's height in one quarter.
-    let bent = refusal(|[x, y, z]| match y + 6 * usize::from(x < 6 && z < 6) {
-        30..36 => 'a',
+    let bent = doubted(&boxed(|[x, y, z]| {
+        match y + 6 * usize::from(x < 6 && z < 6) {
+            30..36 => 'a',
+            _ => 'w',
+        }
+    }));
+    assert!(bent.contains("more than half of the 8.7 um"), "{bent}");
+    // No wood above one quarter.
+    let bare = doubted(&boxed(|[x, y, z]| match y {
+        28..32 => 'a',
+        32.. if x < 6 && z < 6 => ' ',
+        _ => 'w',
+    }));
+    assert!(bare.contains("a quarter of the bond area"), "{bare}");
+}
+
+/// A step between the narrowest columns, along which a plane would run into the wood beside them. How far the level plane is
+/// from those fits is no scatter: it told one of 74 degrees.
+#[test]
+fn a_level_plane_that_is_kept_is_no_fit() {
+    let stack = boxed(|[x, y, _]| match (x, y) {
+        (4 | 5, 30 | 31) | (6 | 7, 28 | 29) => 'w',
+        (_, 28..32) => 'a',
         _ => 'w',
     });
-    assert!(bent.contains("more than half of the 8.7 um"), "{bent}");
+    let said = doubted(&stack);
+    assert!(said.contains("the level one is kept"), "{said}");
+    let datum = Datum::find(Reference::Fit, &stack.state(Axis::Y)).unwrap();
+    let tilt = datum.tilt().unwrap();
+    assert_eq!(tilt.deg, [0.0; 3]);
+    assert!(tilt.error_deg.iter().all(|e| *e < 5.0), "{tilt}");
 }
 
 /// Turned, it has the thickness and depths that the fit tells, and no tilt; so for any bond normal.

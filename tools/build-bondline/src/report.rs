@@ -96,12 +96,15 @@ fn piece(name: &str, face: &Face, voxel_m: f64) {
     }
 }
 
-/// How the bond plane of a specimen is tilted, where it can be fitted.
+/// How the bond plane of a specimen is tilted, or why that is not known.
 pub(crate) fn tilt(specimen: &Specimen, bond: &Bond, normal: Axis) {
     let state = State::of_specimen(specimen, normal);
-    let fit = Datum::find(Reference::Fit, &state);
-    let Some(tilt) = fit.ok().and_then(|plane| plane.tilt()) else {
-        return;
+    let tilt = match Datum::find(Reference::Fit, &state) {
+        Err(why) => return cli::warn(why),
+        Ok(plane) => match (plane.unsure(), plane.tilt()) {
+            (None, Some(tilt)) => tilt,
+            (doubt, _) => return doubt.into_iter().for_each(cli::warn),
+        },
     };
     let n = normal.index();
     let width = |axis: usize| state.box_max_m[axis] - state.box_min_m[axis];

@@ -138,7 +138,7 @@ fn measure(
         adhesive.bits = kept.view();
     }
     let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
-    if let Some(doubt) = datum.doubt(&state) {
+    for doubt in datum.unsure().into_iter().chain(datum.doubt(&state)) {
         cli::warn(format!("'{}': {doubt}", input.name));
     }
     if let Some(output) = &arguments.map {
