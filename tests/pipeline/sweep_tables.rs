@@ -23,7 +23,7 @@ fn planned(bench: &Workbench, folder: &str) -> Vec<String> {
 
 /// Tables, their lines parted by ;, and two parts of the sentence about each.
 const BAD: &str = "\
-adhesive.viscosity;300 cP;300 | row 2, column adhesive.viscosity: | with a unit
+adhesive.viscosity;300 cP;300 | row 2, column adhesive.viscosity: | has no unit
 adhesive.viskosity;300 cP | row 1, column adhesive.viskosity | unknown field
 particles,adhesive.viscosity,grid.cell;bond.mpts,300 cP,2.9 um;bond.mpts,300 cP,3 um | row 2, column grid.cell: | 7.733 cells
 particles,integrator.scheme,integrator.pressure;bond.mpts,implicit,;bond.mpts,implicit,cell-mean | row 2 | column integrator.pressure:
