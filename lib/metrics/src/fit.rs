@@ -7,8 +7,7 @@ use units::Axis;
 use crate::State;
 use crate::state::Across;
 
-/// Fits are repeated because the first split of wood into below and above is level; tilts that
-/// a box can hold settle in a few rounds.
+/// Fits are repeated because the first split of wood into below and above is level; tilts that a box can hold settle in a few.
 const ROUNDS: usize = 8;
 /// Largest part of the open columns that shows surfaces of both adherends.
 const SURFACES: f64 = 0.25;
