@@ -33,7 +33,7 @@
 #   make deny                     advisories, licences and sources of the dependencies
 #   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    cost per cell and step, memory; BASE=folder: beside an older build
-#   make pages                    all that docs/results has from studies, of one build; an hour and a half
+#   make pages                    all that docs/results has from studies, of one build
 #   make kernels                  speed of the explicit kernels and of the linear solver alone
 #   make report                   one page for a browser with tables, figures, runs and the bond in 3D
 #   make book                     the documents as one book to browse and search; needs mdbook

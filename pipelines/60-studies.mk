@@ -28,7 +28,7 @@ tradeoff: $(BINARIES)
 	@$(CARGO) build --release --quiet -p mpm-run --features double --target-dir target/double
 	$(STUDY)
 
-# Every page that a study writes, of one build: an hour and a half of two cores.
+# Every page that a study writes, of one build, one after the other.
 .PHONY: pages
 pages:
 	+@for page in verify stability options load-control leave-out crash experiments bench tradeoff; do $(MAKE) $$page; done

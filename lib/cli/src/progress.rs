@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(text, "25.0 % closed; 50.0 % of the time limit");
     }
 
-    /// Steps that grow as fast as the run goes on made days of the minute that was left.
+    /// The pace of steps that grow as the run goes on would make days of the minute that is left.
     #[test]
     fn of_work_that_speeds_up_no_time_is_told() {
         let mut pace = Pace::default();

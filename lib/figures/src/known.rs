@@ -179,7 +179,7 @@ pub fn signed(number: f64, decimals: usize) -> String {
 mod tests {
     use super::*;
 
-    /// Two pressures of nothing once agreed "at the limit".
+    /// Neither pressures of nothing nor those of a press without a limit are "at the limit", however well two sizes of cells agree.
     #[test]
     fn a_pressure_is_at_the_limit_of_its_case_alone() {
         let known = |extrapolated, error| Known {

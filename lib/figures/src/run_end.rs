@@ -227,7 +227,7 @@ mod tests {
         assert!(!set.advice().unwrap().contains("--set"));
     }
 
-    /// A bond line that trapped air pushed open again was once "not closed".
+    /// Air that was pressed pushes a bond line open again, which was closed until then.
     #[test]
     fn a_press_that_its_release_opened_says_so() {
         let mark = |held_um: f64, gap_m: f64, last: &str| {

@@ -1,4 +1,4 @@
-//! What the case of a run says whatever its cells.
+//! The case of a run without what goes with its cells.
 
 use toml::{Table, Value};
 use units::{Length, Quantity};

@@ -165,7 +165,7 @@ mod tests {
         assert_eq!(read("not TOML").press, "-");
     }
 
-    /// Runs with air, stopped early, with another travel or slab were once held against the plain one.
+    /// Runs with air, stopped early, with another travel or slab are other presses.
     #[test]
     fn the_same_press_has_the_same_bond_and_case_but_cells_and_scheme() {
         let read = |resolved: &str, cell_m: f64, bond: u64| {

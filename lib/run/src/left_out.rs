@@ -3,7 +3,7 @@
 
 use physics::{Boundary, Dimensions, Regime, Stages};
 
-use crate::case::{Case, SchemeName};
+use crate::case::{AirTable, Case, SchemeName};
 use crate::resolve::Setup;
 
 /// Of a run with air that mirror or periodic sides close off.
@@ -36,7 +36,7 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
     );
     match &case.air {
         None => add("trapped air", "voids are empty: p = 0, no [air]".into()),
-        Some(air) if !opens_sideways(setup) && air.leak_time.is_none_or(|leak| leak.si() > setup.time_limit_s) => add(
+        Some(air) if closes_off(air, setup) => add(
             BEYOND_SIDES,
             "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is uncertain by its difference from the same run without [air]; leak_time is for lumens that go on".into(),
         ),
@@ -77,9 +77,11 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
     list
 }
 
-/// Whether air gets out by all sides along the bond.
-fn opens_sideways(setup: &Setup) -> bool {
+/// Whether air stays where the specimen ends: a side along the bond is no open one, and walls leak later than the run ends.
+fn closes_off(air: &AirTable, setup: &Setup) -> bool {
     let [x, _, z] = setup.scene.boundary;
     let solid = setup.scene.dimensions == Dimensions::Three;
-    x == Boundary::Open && (!solid || z == Boundary::Open)
+    let open = x == Boundary::Open && (!solid || z == Boundary::Open);
+    let leak_time = air.leak_time.map_or(f64::INFINITY, |time| time.si());
+    !open && leak_time > setup.time_limit_s
 }

@@ -64,7 +64,8 @@ impl Gas {
         }
     }
 
-    /// Whether a pressure above that outside is that of the volume which its tangent gives it: a void without air collapses at any.
+    /// Whether a pressure above that outside is that of the volume which its tangent gives it, but for what rounding may move of a
+    /// cell: a void without air collapses to nothing at any pressure of the liquid.
     pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
         let off = right.yielding * (pressure - right.pressure).abs();
@@ -118,6 +119,8 @@ mod tests {
             };
             let (volume, absolute) = (tangent.volume_at(p), p + gas.outside);
             let leaked = gas.leaked(mass, volume, p, dt);
+            let swept = first + dt * (p - push) / resistance;
+            assert!((swept - volume).abs() < 2e-3 * first);
             assert!(mass == 0.0 || (absolute * volume + leaked - mass).abs() < 2e-3 * mass);
         }
     }

@@ -17,7 +17,7 @@ pub(crate) use adhesive::{Adhesive, CureTable, WaterTable};
 pub use page::REFERENCE;
 pub(crate) use page::{Table, tables};
 pub(crate) use schema::{
-    Body, BoxCorners, Case, ClampTable, Contact, MaterialName, SchemeName, StageTable,
+    AirTable, Body, BoxCorners, Case, ClampTable, Contact, MaterialName, SchemeName, StageTable,
 };
 pub(crate) use value::{BodyVelocity, EdgeLength, StopRule};
 
