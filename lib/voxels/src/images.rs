@@ -4,8 +4,10 @@ use std::io::{BufRead, BufReader, Seek};
 use std::iter;
 use std::sync::Arc;
 
-use image::codecs::jpeg::JpegDecoder;
-use image::{ColorType, ImageDecoder};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::colours::{self, Shown};
 use crate::kind::Kind;
@@ -68,41 +70,45 @@ fn read(
 ) -> Result<(Kind, PageFormat, Shown), Box<dyn std::error::Error>> {
     let kind = Kind::of(&source.window(0, 16)?).filter(|kind| kind.is_image());
     let kind = kind.ok_or("it is no BMP, PNG or JPEG as the other slices are")?;
-    let content = BufReader::new(source.reader_from(0)?);
     let (format, shown) = match kind {
         Kind::Bmp => bmp::read(source, page)?,
-        Kind::Png => png(content, page)?,
-        _ if page.is_some() && !ends_as_jpeg(source)? => {
-            return Err("its last scan has no end: it is truncated".into());
-        }
-        _ => jpeg(JpegDecoder::new(content)?, page)?,
+        Kind::Png => png(BufReader::new(source.reader_from(0)?), page)?,
+        _ => jpeg(&source.window(0, source.len() as usize)?, page)?,
     };
     Ok((kind, format, shown))
 }
 
-/// Whether the last scan of a JPEG is followed by its end. The decoder makes up what is missing; within a scan
-/// neither of the two markers can stand.
-fn ends_as_jpeg(source: &Source) -> std::io::Result<bool> {
-    const SCAN: [u8; 2] = [0xff, 0xda];
-    const END: [u8; 2] = [0xff, 0xd9];
-    let bytes = source.window(0, source.len() as usize)?;
-    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
-    Ok(last(END) > last(SCAN))
-}
-
-fn jpeg(decoder: impl ImageDecoder, page: Option<&mut Vec<u8>>) -> Read {
-    let (width, height) = decoder.dimensions();
-    let (channels, shown) = match decoder.color_type() {
-        ColorType::L8 => (1, Shown::GREY),
-        ColorType::Rgb8 => (3, Shown::RGB),
-        other => return pixels_refused(other),
+/// Grey stays grey, all other colours are read as RGB.
+fn jpeg(bytes: &[u8], page: Option<&mut Vec<u8>>) -> Read {
+    if page.is_some() && !ends_as_jpeg(bytes) {
+        return Err("its last scan has no end: it is truncated".into());
+    }
+    let options = DecoderOptions::default().set_strict_mode(false);
+    let options = options.set_max_width(usize::MAX).set_max_height(usize::MAX);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers()?;
+    let info = decoder.info().ok_or("it has no frame")?;
+    let (channels, shown, colours) = match decoder.input_colorspace() {
+        Some(ColorSpace::Luma) => (1, Shown::GREY, ColorSpace::Luma),
+        _ => (3, Shown::RGB, ColorSpace::RGB),
     };
-    let format = format_of([width, height], Sample::U8, channels)?;
+    let size = [info.width.into(), info.height.into()];
+    let format = format_of(size, Sample::U8, channels)?;
     if let Some(page) = page {
+        decoder.set_options(options.jpeg_set_out_colorspace(colours));
         page.resize(format.page_bytes().unwrap_or(0), 0);
-        decoder.read_image(page)?;
+        decoder.decode_into(page)?;
     }
     Ok((format, shown))
+}
+
+/// Whether the last scan of a JPEG is followed by its end. The decoder makes up what is missing; within a scan
+/// neither of the two markers can stand.
+fn ends_as_jpeg(bytes: &[u8]) -> bool {
+    const SCAN: [u8; 2] = [0xff, 0xda];
+    const END: [u8; 2] = [0xff, 0xd9];
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    last(END) > last(SCAN)
 }
 
 /// Stored samples as they are: no palette, no gamma, no scaling of fewer than 8 bits.

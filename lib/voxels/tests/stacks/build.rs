@@ -120,9 +120,9 @@ pub fn bmp(bits: usize, stored: &[u8], palette: &[[u8; 3]]) -> Vec<u8> {
 
 pub fn jpeg(values: &[u8], quality: u8) -> Vec<u8> {
     let mut file = Vec::new();
-    let mut encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, quality);
-    let [nx, ny, _] = DIMS.map(|n| n as u32);
-    let grey = image::ExtendedColorType::L8;
+    let encoder = jpeg_encoder::Encoder::new(&mut file, quality);
+    let [nx, ny, _] = DIMS.map(|n| n as u16);
+    let grey = jpeg_encoder::ColorType::Luma;
     encoder.encode(values, nx, ny, grey).unwrap();
     file
 }
