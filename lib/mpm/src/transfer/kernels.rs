@@ -24,6 +24,8 @@ pub(crate) struct Kernels {
 }
 
 impl Kernels {
+    // Inlined, the kernels would be compiled again in each crate that starts a run.
+    #[inline(never)]
     pub(crate) fn new(three: bool, mode: Mode) -> Self {
         if three {
             Self::within::<3>(mode)
