@@ -8,9 +8,8 @@ use super::frames::{Frames, check_motions, mover};
 pub(crate) const OPEN: u8 = 0;
 /// Code beyond a side of symmetry: neither open nor a wall.
 pub(crate) const MIRROR: u8 = u8::MAX;
-/// Most bodies of a scene: codes have 8 bits.
-pub(crate) const MAX_BODIES: usize = 200;
-/// Part of a voxel that a face of a body may be off the lattice, as rounding.
+/// Part of a voxel that a face of a body may be off the lattice, as rounding of files: a larger one moves walls, a smaller one refuses
+/// what lies on it.
 pub(super) const ALIGNED: f64 = 1e-3;
 
 /// A layer of voxels at constant y: codes, x fastest.
@@ -65,9 +64,11 @@ impl Lattice {
     /// A sentence on what of the scene does not lie on the voxels or moves otherwise than a clamp.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         let grid = &scene.grid;
-        if scene.bodies.len() > MAX_BODIES {
+        // Codes of bodies lie between those.
+        let most = usize::from(MIRROR - OPEN) - 1;
+        if scene.bodies.len() > most {
             return Err(format!(
-                "the scene has {} rigid bodies; the implicit scheme takes at most {MAX_BODIES}",
+                "the scene has {} rigid bodies; the implicit scheme takes at most {most}",
                 scene.bodies.len()
             ));
         }

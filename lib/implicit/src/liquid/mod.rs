@@ -14,4 +14,4 @@ pub(crate) use carry::{
 pub(crate) use deposit::{Place, deposit};
 pub(crate) use output::{Shown, TRACE, points};
 pub(crate) use profile::Profile;
-pub(crate) use transport::{Moved, transport};
+pub(crate) use transport::{Moved, ROUNDING, transport};

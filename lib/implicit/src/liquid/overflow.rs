@@ -1,10 +1,10 @@
 //! Liquid beyond what a pore can hold goes on to pores beside it.
 
-use super::transport::{PASSES, pass};
+use super::transport::{PASSES, ROUNDING, pass};
 use crate::geometry::{Mesh, Way};
 
-/// Excess, cells, that stays where it is: ten times what rounding leaves of a sum.
-const NOTHING: f64 = 1e-13;
+/// Excess, cells, that stays where it is: less would be passed to and fro by the rounding of sums.
+const NOTHING: f64 = 10.0 * ROUNDING;
 
 /// A face by which excess may leave a pore.
 #[derive(Clone, Copy)]

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::output::TRACE;
 use super::overflow::overflow;
 use super::water::carry;
 use crate::geometry::{Mesh, Way};
@@ -12,9 +13,11 @@ const NORMAL: f64 = 0.7;
 /// looks cost next to nothing beside a solution.
 const CROSSED: f64 = 0.25;
 
-/// Volume that is rounding, cells: at most a hundred bits of a full cell.
-pub(super) const ROUNDING: f64 = 1e-14;
-/// Passes after which what is left of an excess or a lack stays: all that settle take fewer.
+/// Part of a volume, or of a full cell, that is rounding: fifty bits. With less, sums that are right never settle; with a thousand times
+/// as much, liquid goes astray.
+pub(crate) const ROUNDING: f64 = 1e-14;
+/// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is: all that
+/// settle take fewer.
 pub(super) const PASSES: usize = 100;
 
 /// Liquid after a step.
@@ -40,7 +43,7 @@ pub(crate) fn transport(
     dt: f64,
 ) -> Moved {
     let fastest = velocity.iter().fold(0.0_f64, |most, v| v.abs().max(most));
-    let parts = (fastest * dt / CROSSED - 1e-9).ceil().max(1.0);
+    let parts = (fastest * dt / CROSSED - TRACE).ceil().max(1.0);
     let swept: Vec<f64> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)

@@ -4,7 +4,7 @@ use physics::{Array, Boundary, Saved, restored};
 
 use super::Implicit;
 use crate::air::{Air, Gas};
-use crate::geometry::ROUNDING;
+use crate::geometry::DRIFT;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
 /// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
@@ -142,7 +142,7 @@ impl Implicit {
         let mut others = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
-                true => outflow(pore) * dt > ROUNDING,
+                true => outflow(pore) * dt > DRIFT,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
             others |= now != *torn;

@@ -3,10 +3,12 @@
 use super::Implicit;
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Kept, carried_pressures, carried_region, carried_velocities, carried_volumes};
+use crate::settings::LARGEST_CFL;
 use crate::system::{Edges, Links};
 
-/// Cells around the liquid that a mesh has. It is made anew where half of them are left: liquid crosses less than two in a step.
-pub(super) const MARGIN: usize = 4;
+/// Cells around the liquid that a mesh has: twice those that it comes to lie in within a step. The mesh is made anew where half of
+/// them are left.
+pub(super) const MARGIN: usize = 2 * (LARGEST_CFL as usize + 1);
 
 impl Implicit {
     /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.

@@ -5,11 +5,9 @@ use physics::{Array, SET, Saved, Saving, WaterState};
 use super::setup::Setup;
 use super::solve::Solved;
 use super::{Implicit, THICKENS};
-use crate::geometry::ROUNDING;
+use crate::geometry::DRIFT;
 use crate::water::{Account, Exchange, Medium};
 
-/// Change of ln(viscosity) by drying from which a step is taken again, shorter: half above what it aims at, so few are.
-const MOST_THICKENS: f64 = 0.3;
 /// Names of the arrays that hold the water in the liquid, in the walls of each pore, and the account.
 const WATER: &str = "water";
 const SOAKED: &str = "water_in_walls";
@@ -47,7 +45,8 @@ impl Solved {
     /// How long a step may be at most, s, where the liquid dries too fast in this one.
     pub(super) fn dries_too_fast(&self) -> Option<f64> {
         let change = self.exchange.as_ref()?.change;
-        (change > MOST_THICKENS).then(|| self.dt * THICKENS / change)
+        // Half above what steps aim at, so few are taken again.
+        (change > 1.5 * THICKENS).then(|| self.dt * THICKENS / change)
     }
 }
 
@@ -156,8 +155,7 @@ impl Implicit {
         };
         let (water, soaked) = (saved.f64s(WATER)?, saved.f64s(SOAKED)?);
         let n = volumes.len();
-        let sound =
-            |(&water, &volume): (&f64, &f64)| (-ROUNDING..=volume + ROUNDING).contains(&water);
+        let sound = |(&water, &volume): (&f64, &f64)| (-DRIFT..=volume + DRIFT).contains(&water);
         if water.len() != n
             || soaked.len() != n
             || !water.iter().zip(volumes).all(sound)

@@ -1,6 +1,6 @@
 //! Where the water is that the liquid does not hold.
 
-use crate::geometry::ROUNDING;
+use crate::geometry::DRIFT;
 
 /// The account of the water, and what the next step goes by.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,7 +56,7 @@ impl Account {
                 .all(|x| (0.0..=f64::MAX).contains(x))
             && fluidity > 0.0
             && fluidity <= 1.0
-            && found.missing(held).abs() <= ROUNDING;
+            && found.missing(held).abs() <= DRIFT;
         if sound { Ok(found) } else { Err(wrong()) }
     }
 }

@@ -7,7 +7,7 @@ const TOLERANCE: f64 = 1e-10;
 /// Iterations to reach it at most.
 const MAX_ITERATIONS: usize = 2000;
 /// Part of the limit by which X may fall short of it: above what the solution is off by.
-const HAIR: f64 = 1e-9;
+const HAIR: f64 = 10.0 * TOLERANCE;
 
 /// A pore with liquid.
 #[derive(Clone, Debug, PartialEq)]
