@@ -9,7 +9,6 @@ mod passages;
 mod region;
 mod rows;
 mod split;
-mod still;
 mod voxels;
 
 pub(crate) use chords::{Chords, Place};

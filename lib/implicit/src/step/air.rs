@@ -94,8 +94,7 @@ impl Implicit {
         let wetting = wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
             cosine: wetting.contact_angle.cos(),
-            slowing: setup.settings.dynamic_angle,
-            viscosity,
+            slowing: setup.settings.dynamic_angle * viscosity,
             dt,
             shorter: match self.state.steps {
                 0 => 1.0,
@@ -110,14 +109,6 @@ impl Implicit {
             wetting,
             &self.state.flow.velocity,
         )
-    }
-
-    /// Whether each pore is torn, of a liquid that can be: none is yet.
-    pub(super) fn untorn(&self) -> Vec<bool> {
-        match self.setup.liquid.cavitation_pressure {
-            Some(_) => vec![false; self.mesh.pores.len()],
-            None => Vec::new(),
-        }
     }
 
     /// Finds anew which pores are torn, those whose liquid would carry more tension than it can and comes apart; whether they
