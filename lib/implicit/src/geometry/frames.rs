@@ -68,8 +68,8 @@ fn moving(scene: &Scene) -> Result<Option<Moving>, String> {
         let down = match body.motion {
             Motion::Fixed => continue,
             Motion::Clamped => true,
-            Motion::Constant([_, y, _]) if y == 0.0 => continue,
-            Motion::Constant([x, y, z]) if x == 0.0 && z == 0.0 => y < 0.0,
+            Motion::Constant([_, 0.0, _]) => continue,
+            Motion::Constant([0.0, y, 0.0]) => y < 0.0,
             Motion::Constant(_) => {
                 return Err(format!(
                     "body '{}' moves along y and aside: the implicit scheme moves bodies along y, or walls along themselves",
