@@ -5,29 +5,35 @@ use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 
 use crate::geometry::{Chords, Lattice, Mesh};
 use crate::liquid::Kept;
+use crate::settings::MISSED;
 use crate::system::{
     Channels, Edges, Fronts, Links, Problem, Scales, Unknowns, Viscosities, masses, resistance,
     stiffnesses,
 };
 
-/// Relative residual of the solve: the flux is within a tenth of it.
-const TOLERANCE: f64 = 1e-4;
-/// Iterations of the solve at most.
+/// Relative residual of the solve, a tenth of what a step may miss: the flux is within a tenth of it.
+const TOLERANCE: f64 = 0.1 * MISSED;
+/// Iterations of the solve at most, so that one that stagnates ends: more than in a step, which the next one goes on from.
 const ITERATIONS: usize = 500;
-/// Compression of a cell by a unit of pressure: next to none, so that there is one mean pressure.
-const COMPRESSION: f64 = 1e-8;
 
 /// A permeability and what it was found from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Permeability {
     /// That of the flow in cells of one voxel, m2.
     pub m2: f64,
-    /// Its distance from that in cells of two voxels, m2: what is to be thought of as its error.
-    pub error_m2: f64,
+    /// That in cells of two voxels, m2.
+    pub coarse_m2: f64,
     /// Share of the volume that is open.
     pub porosity: f64,
     /// Share of it through which liquid flows from side to side.
     pub through: f64,
+}
+
+impl Permeability {
+    /// What is to be thought of as the error of `m2`, m2: its distance from that in cells of two voxels.
+    pub fn error_m2(&self) -> f64 {
+        (self.m2 - self.coarse_m2).abs()
+    }
 }
 
 /// Permeability along `axis` (0 to 2) of what `solid` leaves open, all of it full of liquid that sticks to the walls, between two
@@ -58,15 +64,21 @@ pub fn permeability(
             ["x", "y", "z"][a]
         ));
     }
-    let fine = Through::new(solid, axis, sides, 1).solve()?;
-    let coarse = Through::new(solid, axis, sides, 2).solve()?;
+    let [fine, coarse] = [1, 2].map(|k| Through::new(solid, axis, sides, k));
     let m2 = edge.powi(2);
+    let volume = |weight: &dyn Fn(usize) -> f64| -> f64 {
+        let pores = 0..fine.mesh.pores.len();
+        pores
+            .map(|pore| weight(pore) * fine.mesh.volume(pore))
+            .sum()
+    };
+    let (open, through) = (volume(&|_| 1.0), volume(&|pore| fine.fractions[pore]));
     Ok(Permeability {
-        m2: fine.squares * m2,
+        m2: fine.squares()? * m2,
         // Cells of two voxels have an edge of two.
-        error_m2: (fine.squares - 4.0 * coarse.squares).abs() * m2,
-        porosity: fine.porosity,
-        through: fine.through,
+        coarse_m2: 4.0 * coarse.squares()? * m2,
+        porosity: open / fine.cells(),
+        through: if open > 0.0 { through / open } else { 0.0 },
     })
 }
 
@@ -77,14 +89,6 @@ struct Through {
     mesh: Mesh,
     /// 1 of pores that a way leads through from side to side.
     fractions: Vec<f64>,
-}
-
-/// What a solve gave.
-struct Found {
-    /// Permeability in squares of the edge of a cell.
-    squares: f64,
-    porosity: f64,
-    through: f64,
 }
 
 impl Through {
@@ -103,22 +107,16 @@ impl Through {
         }
     }
 
-    /// The steady flow at a unit of pressure per cell and of viscosity.
-    fn solve(&self) -> Result<Found, String> {
-        let (mesh, fractions) = (&self.mesh, &self.fractions);
-        let volume = |weight: &dyn Fn(usize) -> f64| -> f64 {
-            (0..mesh.pores.len())
-                .map(|pore| weight(pore) * mesh.volume(pore))
-                .sum()
-        };
-        let cells = mesh.size.iter().product::<usize>() as f64;
-        let (open, through) = (volume(&|_| 1.0), volume(&|pore| fractions[pore]));
-        let flux = if through > 0.0 { self.flux()? } else { 0.0 };
-        Ok(Found {
-            squares: flux / cells,
-            porosity: open / cells,
-            through: if open > 0.0 { through / open } else { 0.0 },
-        })
+    fn cells(&self) -> f64 {
+        self.mesh.size.iter().product::<usize>() as f64
+    }
+
+    /// Permeability in squares of the edge of a cell: the mean flux of steady flow at a unit of pressure per cell and of viscosity.
+    fn squares(&self) -> Result<f64, String> {
+        match self.fractions.iter().any(|&fraction| fraction > 0.0) {
+            true => Ok(self.flux()? / self.cells()),
+            false => Ok(0.0),
+        }
     }
 
     /// Sum of the fluxes through all sections.
@@ -131,7 +129,7 @@ impl Through {
             influence_length: 0.0,
         };
         let links = Links::new(&channels, &Kept::default(), &Links::default());
-        let unknowns = Unknowns::new(mesh, fractions, &[]);
+        let unknowns = Unknowns::new(mesh, fractions, &vec![false; mesh.pores.len()]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
             .map(|face| face.ends().map(|pore| fractions[pore]))
             .collect();
@@ -175,7 +173,8 @@ impl Through {
             a: &a,
             g: &g,
             pockets: 0,
-            c: &vec![COMPRESSION; p.len()],
+            // Next to none, so that there is one mean pressure.
+            c: &vec![TOLERANCE * TOLERANCE; p.len()],
             friction: &friction,
             two_eta: &vec![2.0; p.len()],
             b: &push,

@@ -21,7 +21,7 @@ pub use material::{
     Course, Cure, CureLaw, Law, Liquid, Newtonian, Rheology, SET, ShearRate, TAIT_C, Table, Tait,
     Viscosity, Water, WaterLaw, Wetting,
 };
-pub use press::{Press, PressRun, PressStage, PressStep, Reason, StageEnd};
+pub use press::{CONTROLLED, Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;
 pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Seed, Stop};
 pub use scheme::{

@@ -134,11 +134,6 @@ impl<T: Real> Csr<T> {
         self.n_columns
     }
 
-    /// Number of stored entries.
-    pub fn n_entries(&self) -> usize {
-        self.columns.len()
-    }
-
     /// Columns and values of row `row`.
     pub fn row(&self, row: usize) -> (&[u32], &[T]) {
         let range = self.row_start[row] as usize..self.row_start[row + 1] as usize;

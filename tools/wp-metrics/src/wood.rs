@@ -33,7 +33,7 @@ pub fn tell_permeability(
         Ok(PermeabilityRow {
             file: cli::cell(&input.name).into_owned(),
             axis,
-            permeability_m2: [found.m2, found.error_m2],
+            permeability_m2: [found.m2, found.error_m2()],
             porosity: found.porosity,
             through: found.through,
         })

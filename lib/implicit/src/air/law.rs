@@ -2,12 +2,11 @@
 
 use physics::{TAIT_C, Tait};
 
-use crate::geometry::ROUNDING;
+use crate::geometry::DRIFT;
 use crate::settings::MISSED;
 
-/// Least absolute pressure of a void, over that outside: one that liquid opens without air has no tangent in a vacuum.
-const THINNEST: f64 = 1e-3;
-/// Largest ratio of the volumes that one tangent and the next are taken at: Newton's steps of V = m/p end from either side.
+/// Largest ratio of the volumes that one tangent and the next are taken at, so that Newton's steps of V = m/p end from either side:
+/// larger ones overshoot, smaller ones take more passes.
 const STEEPEST: f64 = 4.0;
 
 /// The air of a run. Pressures are over a unit.
@@ -55,7 +54,8 @@ impl Gas {
     /// p V = m - dt/t_leak (p - p_0) V.
     pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
         let leak = dt / self.leak_time;
-        let thinnest = THINNEST * self.outside;
+        // A void that liquid opens without air has no tangent in a vacuum.
+        let thinnest = MISSED * self.outside;
         let absolute = (mass / volume + leak * self.outside) / (1.0 + leak);
         Tangent {
             volume,
@@ -69,7 +69,7 @@ impl Gas {
     pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
         let off = right.yielding * (pressure - right.pressure).abs();
-        off <= (MISSED * right.volume).max(ROUNDING)
+        off <= (MISSED * right.volume).max(DRIFT)
     }
 
     /// What of `mass` leaks out in a step in which it comes to a volume and to a pressure above that outside.

@@ -2,17 +2,13 @@
 
 use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
 
-use super::lattice::{ALIGNED, Lattice, Moving};
+use super::lattice::{ALIGNED, Moving};
 
 /// Refuses motions by which walls come elsewhere than where the grid has them.
-pub(super) fn check_motions(
-    scene: &Scene,
-    lattice: &Lattice,
-    frames: &Frames,
-) -> Result<(), String> {
+pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
     let tight = ALIGNED * scene.grid.cell_m;
-    if lattice.moving.is_some() && scene.boundary[1] == Boundary::Periodic {
+    if frames.moving.is_some() && scene.boundary[1] == Boundary::Periodic {
         return Err(
             "a body moves along y between periodic sides: give other sides normal to y".into(),
         );
@@ -34,7 +30,7 @@ pub(super) fn check_motions(
                 }
             }
         }
-        let Some(moving) = lattice.moving.filter(|_| lattice.mover != Some(index)) else {
+        let Some(moving) = frames.moving.filter(|moving| moving.body != index) else {
             continue;
         };
         for block in &body.blocks {
@@ -43,12 +39,12 @@ pub(super) fn check_motions(
             };
             let [bottom, top] = frames.gap;
             // A domain may end within its last row of cells.
-            let (beside, along) = match moving {
-                Moving::Above => (
+            let (beside, along) = match moving.down {
+                true => (
                     to > bottom + tight,
                     from <= bottom + tight && to > high[1] - scene.grid.cell_m,
                 ),
-                Moving::Below => (
+                false => (
                     from < top - tight,
                     to >= top - tight && from <= low[1] + tight,
                 ),
@@ -57,8 +53,7 @@ pub(super) fn check_motions(
                 return Err(format!(
                     "body '{}' stands beside the way of '{}' and is not alike along it: the implicit scheme takes walls \
                      there that go on to the side of the domain",
-                    body.name,
-                    scene.bodies[lattice.mover.unwrap_or(index)].name
+                    body.name, scene.bodies[moving.body].name
                 ));
             }
         }
@@ -66,27 +61,23 @@ pub(super) fn check_motions(
     Ok(())
 }
 
-/// The body that moves along y, if one does, and its speed against the others.
-pub(super) fn mover(scene: &Scene) -> Result<Option<usize>, String> {
+/// The body that moves along y, if one does.
+fn moving(scene: &Scene) -> Result<Option<Moving>, String> {
     let mut found = None;
     for (index, body) in scene.bodies.iter().enumerate() {
-        let along_y = match body.motion {
-            Motion::Fixed => false,
+        let down = match body.motion {
+            Motion::Fixed => continue,
             Motion::Clamped => true,
-            Motion::Constant(v) => v[1] != 0.0,
+            Motion::Constant([_, 0.0, _]) => continue,
+            Motion::Constant([0.0, y, 0.0]) => y < 0.0,
+            Motion::Constant(_) => {
+                return Err(format!(
+                    "body '{}' moves along y and aside: the implicit scheme moves bodies along y, or walls along themselves",
+                    body.name
+                ));
+            }
         };
-        if !along_y {
-            continue;
-        }
-        if let Motion::Constant([x, _, z]) = body.motion
-            && (x != 0.0 || z != 0.0)
-        {
-            return Err(format!(
-                "body '{}' moves along y and aside: the implicit scheme moves bodies along y, or walls along themselves",
-                body.name
-            ));
-        }
-        if found.replace(index).is_some() {
+        if found.replace(Moving { body: index, down }).is_some() {
             return Err(format!(
                 "two bodies move along y, '{}' the second of them: the implicit scheme takes one",
                 body.name
@@ -106,42 +97,30 @@ pub(super) struct Frames {
 impl Frames {
     /// The gap lies between the body that moves and the nearest voxels of others that end towards it; without such a body it
     /// is none, at the low side of the domain.
-    pub(super) fn new(scene: &Scene, mover: Option<usize>) -> Result<Self, String> {
-        let low = scene.grid.min_m[1];
-        let Some(mover) = mover else {
+    pub(super) fn new(scene: &Scene) -> Result<Self, String> {
+        let [low, high] = [scene.grid.min_m[1], scene.grid.max_m()[1]];
+        let moving = moving(scene)?;
+        let Some(Moving { body, down }) = moving else {
             return Ok(Self {
                 gap: [low; 2],
-                moving: None,
+                moving,
             });
         };
-        let body = &scene.bodies[mover];
-        let down = match body.motion {
-            Motion::Constant(v) => v[1] < 0.0,
-            _ => true,
-        };
-        let extent = (f64::INFINITY, f64::NEG_INFINITY);
-        let solid = body.blocks.iter().filter_map(sides);
-        let (bottom, top) = solid.fold(extent, |(bottom, top), [from, to]| {
-            (bottom.min(from), top.max(to))
+        let solid = scene.bodies[body].blocks.iter().filter_map(sides);
+        let (bottom, top) = solid.fold((f64::INFINITY, f64::NEG_INFINITY), |so_far, [from, to]| {
+            (so_far.0.min(from), so_far.1.max(to))
         });
-        let high = scene.grid.max_m()[1];
         let tight = ALIGNED * scene.grid.cell_m;
-        // Sides of other bodies that cross the mover's path: where one ends, the gap ends.
-        let mut stop = if down { low } else { high };
-        for other in scene.bodies.iter().enumerate().filter(|(i, _)| *i != mover) {
-            for block in &other.1.blocks {
-                for y in sides(block).into_iter().flatten() {
-                    if down && y <= bottom + tight {
-                        stop = stop.max(y);
-                    } else if !down && y >= top - tight {
-                        stop = stop.min(y);
-                    }
-                }
-            }
-        }
-        let (gap, moving) = match down {
-            true => ([stop, bottom], Moving::Above),
-            false => ([top, stop], Moving::Below),
+        // Where another body ends on the way, the gap ends.
+        let others = scene.bodies.iter().enumerate().filter(|at| at.0 != body);
+        let blocks = others.flat_map(|(_, body)| &body.blocks);
+        let ends = blocks.filter_map(sides).flatten();
+        let gap = match down {
+            true => [
+                ends.filter(|y| *y <= bottom + tight).fold(low, f64::max),
+                bottom,
+            ],
+            false => [top, ends.filter(|y| *y >= top - tight).fold(high, f64::min)],
         };
         if let Stop::Closed { travel_m } = scene.stop
             && travel_m > gap[1] - gap[0] + tight
@@ -152,10 +131,7 @@ impl Frames {
                 1e6 * (gap[1] - gap[0])
             ));
         }
-        Ok(Self {
-            gap,
-            moving: Some(moving),
-        })
+        Ok(Self { gap, moving })
     }
 }
 

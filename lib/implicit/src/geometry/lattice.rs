@@ -2,15 +2,14 @@
 
 use physics::{Boundary, Dimensions, Motion, RigidBody, Scene, VoxelBlock};
 
-use super::frames::{Frames, check_motions, mover};
+use super::frames::{Frames, check_motions};
 
 /// Code of a voxel that liquid can fill. A body `b` has `b + 1`.
 pub(crate) const OPEN: u8 = 0;
 /// Code beyond a side of symmetry: neither open nor a wall.
 pub(crate) const MIRROR: u8 = u8::MAX;
-/// Most bodies of a scene: codes have 8 bits.
-pub(crate) const MAX_BODIES: usize = 200;
-/// Part of a voxel that a face of a body may be off the lattice, as rounding.
+/// Part of a voxel that a face of a body may be off the lattice, as rounding of files: a larger one moves walls, a smaller one refuses
+/// what lies on it.
 pub(super) const ALIGNED: f64 = 1e-3;
 
 /// A layer of voxels at constant y: codes, x fastest.
@@ -33,29 +32,17 @@ pub(crate) struct Lattice {
     /// y of the low side of the gap at the start, m, and height of the gap, cells.
     pub(crate) gap_low_m: f64,
     pub(crate) gap_height: f64,
-    /// The parts that move along y with the closing speed: the body above comes down, or that below comes up.
+    /// What moves along y with the closing speed.
     pub(crate) moving: Option<Moving>,
-    /// The body that does.
-    pub(crate) mover: Option<usize>,
     /// Velocity of each body along x, y, z where that is not the clamp's, cells/s: walls that move along themselves.
     pub(crate) slide: Vec<[f64; 3]>,
 }
 
-/// The part of the grid that moves.
+/// A body, and its part of the grid, that comes down from above the gap or up from below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Moving {
-    Below,
-    Above,
-}
-
-impl Moving {
-    /// Which way it moves along y.
-    fn direction(self) -> f64 {
-        match self {
-            Self::Below => 1.0,
-            Self::Above => -1.0,
-        }
-    }
+pub(crate) struct Moving {
+    pub(crate) body: usize,
+    pub(crate) down: bool,
 }
 
 impl Lattice {
@@ -65,14 +52,15 @@ impl Lattice {
     /// A sentence on what of the scene does not lie on the voxels or moves otherwise than a clamp.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         let grid = &scene.grid;
-        if scene.bodies.len() > MAX_BODIES {
+        // Codes of bodies lie between those.
+        let most = usize::from(MIRROR - OPEN) - 1;
+        if scene.bodies.len() > most {
             return Err(format!(
-                "the scene has {} rigid bodies; the implicit scheme takes at most {MAX_BODIES}",
+                "the scene has {} rigid bodies; the implicit scheme takes at most {most}",
                 scene.bodies.len()
             ));
         }
-        let mover = mover(scene)?;
-        let frames = Frames::new(scene, mover)?;
+        let frames = Frames::new(scene)?;
         // One voxel a cell where every face lies on those of cells.
         let k = match off_lattice(scene, &frames, grid.cell_m) {
             None => 1,
@@ -94,15 +82,12 @@ impl Lattice {
             let body = scene.bodies.iter().position(|body| body.contains(at));
             body.map_or(OPEN, |body| body as u8 + 1)
         };
+        let place = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
         let layer = |y: f64| -> Layer {
-            let mut layer = Vec::with_capacity(across[0] * across[1]);
-            for z in 0..across[1] {
-                for x in 0..across[0] {
-                    let place = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
-                    layer.push(code([place(0, x), y, place(2, z)]));
-                }
-            }
-            layer
+            let places = (0..across[1]).flat_map(|z| (0..across[0]).map(move |x| [x, z]));
+            places
+                .map(|[x, z]| code([place(0, x), y, place(2, z)]))
+                .collect()
         };
         let [bottom, top] = frames.gap;
         let below: Vec<Layer> = (0..layers(low, bottom))
@@ -112,7 +97,8 @@ impl Lattice {
             .map(|n| layer(top + (n as f64 + 0.5) * edge))
             .collect();
         let gap = layer(0.5 * (bottom + top));
-        let lattice = Self {
+        check_motions(scene, &frames)?;
+        Ok(Self {
             k,
             cells: [grid.cells[0], grid.cells[2]],
             boundary: scene.boundary,
@@ -123,22 +109,71 @@ impl Lattice {
             gap_low_m: bottom,
             gap_height: (top - bottom) / grid.cell_m,
             moving: frames.moving,
-            mover,
             slide: (scene.bodies.iter())
                 .map(|body| match body.motion {
                     Motion::Constant(v) => v.map(|v| v * (1.0 / grid.cell_m)),
                     _ => [0.0; 3],
                 })
                 .collect(),
+        })
+    }
+
+    /// The lattice of one body at rest, in `size` cells of `k` voxels an edge from its low corner on, and of its mirror image
+    /// behind it along `axis`: periodic along that, with these sides else.
+    pub(crate) fn of_voxels(
+        solid: &VoxelBlock,
+        k: usize,
+        mut size: [usize; 3],
+        axis: usize,
+        sides: Boundary,
+    ) -> Self {
+        let single = size[axis] * k;
+        size[axis] *= 2;
+        let mut boundary = [sides; 3];
+        boundary[axis] = Boundary::Periodic;
+        let [nx, ny, nz] = size.map(|n| n * k);
+        let code = |mut at: [usize; 3]| {
+            at[axis] = at[axis].min(2 * single - 1 - at[axis]);
+            match solid.solid(at[0], at[1], at[2]) {
+                true => OPEN + 1,
+                false => OPEN,
+            }
         };
-        check_motions(scene, &lattice, &frames)?;
-        Ok(lattice)
+        let layer = |y: usize| {
+            let places = (0..nz).flat_map(|z| (0..nx).map(move |x| [x, y, z]));
+            places.map(code).collect()
+        };
+        let layers = (0..ny).map(layer).collect();
+        Self::still(k, [size[0], size[2]], boundary, layers)
+    }
+
+    /// Layers of bodies at rest, the lowest first.
+    fn still(k: usize, cells: [usize; 2], boundary: [Boundary; 3], above: Vec<Layer>) -> Self {
+        Self {
+            k,
+            cells,
+            boundary,
+            flat: false,
+            below: Vec::new(),
+            gap: vec![OPEN; cells[0] * cells[1] * k * k],
+            above,
+            gap_low_m: 0.0,
+            gap_height: 0.0,
+            moving: None,
+            slide: vec![[0.0; 3]],
+        }
+    }
+
+    /// Whether a body moves along y.
+    pub(crate) fn is_moving(&self, body: usize) -> bool {
+        self.moving.is_some_and(|moving| moving.body == body)
     }
 
     /// Velocity of a body along y over the closing speed.
     pub(crate) fn speed_of(&self, body: usize) -> f64 {
         match self.moving {
-            Some(moving) if self.mover == Some(body) => moving.direction(),
+            Some(moving) if moving.body == body && moving.down => -1.0,
+            Some(moving) if moving.body == body => 1.0,
             _ => 0.0,
         }
     }
@@ -146,8 +181,8 @@ impl Lattice {
     /// Velocity of the grid along y over the closing speed where it takes part in the body above's by `share`.
     pub(crate) fn speed_at(&self, share: f64) -> f64 {
         match self.moving {
-            Some(Moving::Above) => -share,
-            Some(Moving::Below) => 1.0 - share,
+            Some(Moving { down: true, .. }) => -share,
+            Some(_) => 1.0 - share,
             None => 0.0,
         }
     }
@@ -178,20 +213,13 @@ fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a 
 impl super::mesh::Mesh {
     /// Open cells between mirrors, one across: so many below and above a gap of so many that closes.
     pub(crate) fn column([below, above]: [usize; 2], gap: usize) -> Self {
-        let layer = vec![OPEN];
+        let layers = |n: usize| vec![vec![OPEN]; n];
+        let (body, down) = (0, true);
         let lattice = Lattice {
-            k: 1,
-            cells: [1, 1],
-            boundary: [Boundary::Symmetry; 3],
-            flat: false,
-            below: vec![layer.clone(); below],
-            gap: layer.clone(),
-            above: vec![layer; above],
-            gap_low_m: 0.0,
+            below: layers(below),
             gap_height: gap as f64,
-            moving: Some(Moving::Above),
-            mover: Some(0),
-            slide: vec![[0.0; 3]],
+            moving: Some(Moving { body, down }),
+            ..Lattice::still(1, [1, 1], [Boundary::Symmetry; 3], layers(above))
         };
         let rows = lattice.rows();
         Self::whole(&lattice, rows, 0..rows.len())

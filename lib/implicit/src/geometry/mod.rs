@@ -9,7 +9,6 @@ mod passages;
 mod region;
 mod rows;
 mod split;
-mod still;
 mod voxels;
 
 pub(crate) use chords::{Chords, Place};
@@ -17,4 +16,4 @@ pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, Way, others};
 pub(crate) use passages::narrowness;
 pub(crate) use region::Region;
-pub(crate) use rows::{ROUNDING, RowKind, Rows};
+pub(crate) use rows::{DRIFT, RowKind, Rows};

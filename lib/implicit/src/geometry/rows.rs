@@ -20,12 +20,12 @@ pub(crate) struct Rows {
 }
 
 /// Part of a cell, or of the liquid's water, that rounding may move in a run: far more than it does, far less than steps do.
-pub(crate) const ROUNDING: f64 = 1e-6;
+pub(crate) const DRIFT: f64 = 1e-6;
 
 impl Rows {
     /// Rows of a gap of `height` cells: as few as are no higher than a cell.
     pub(crate) fn of_gap(below: usize, above: usize, height: f64) -> Self {
-        let gap = (height - ROUNDING).ceil().max(0.0) as usize;
+        let gap = (height - DRIFT).ceil().max(0.0) as usize;
         Self {
             below,
             gap,

@@ -89,8 +89,14 @@ impl Kept {
     }
 }
 
-/// Rows of `old` that overlap a row of the gap of `new`, with the part of each that does. Both gaps have the same height.
+/// Rows of the mesh `old` that a row of `new` is or overlaps, with the part of each that does: both gaps have the same height.
 fn overlapping(new: &Mesh, old: &Mesh, row: usize) -> Vec<(usize, f64)> {
+    if new.rows().kind(row) != RowKind::Gap {
+        return same_row(new, old, row)
+            .map(|row| (row, 1.0))
+            .into_iter()
+            .collect();
+    }
     let part = |row: usize, rows: usize| {
         let first = row as f64 / rows as f64;
         [first, first + 1.0 / rows as f64]
@@ -147,14 +153,8 @@ fn of_pores(
     let value = |pore: usize| {
         let cell = new.cell(pore);
         let index = pore - new.pores_of(cell).start;
-        joined(
-            new,
-            old,
-            cell,
-            |cell| old.pores_of(cell).nth(index),
-            values,
-            &join,
-        )
+        let at = |cell: usize| old.pores_of(cell).nth(index);
+        joined(new, old, cell, at, values, &join)
     };
     (0..new.pores.len()).into_par_iter().map(value).collect()
 }
@@ -170,16 +170,9 @@ fn joined(
     join: impl Fn(&[(f64, f64)]) -> f64,
 ) -> f64 {
     let [x, _, z] = new.place(cell);
-    let row = new.row(cell);
     let value = |y: usize| at(old.cell_at([x, y, z])).map_or(0.0, |at| values[at]);
-    match same_row(new, old, row) {
-        Some(y) => value(y),
-        None if new.rows().kind(row) == RowKind::Gap => {
-            let rows = overlapping(new, old, row).into_iter();
-            join(&rows.map(|(y, part)| (part, value(y))).collect::<Vec<_>>())
-        }
-        None => 0.0,
-    }
+    let rows = overlapping(new, old, new.row(cell)).into_iter();
+    join(&rows.map(|(y, part)| (part, value(y))).collect::<Vec<_>>())
 }
 
 /// The pores above and below a pore of a gap that is gone, or those of the nearest in the gap that have some.

@@ -1,10 +1,10 @@
 //! Liquid beyond what a pore can hold goes on to pores beside it.
 
-use super::transport::{PASSES, pass};
+use super::transport::{PASSES, ROUNDING, pass};
 use crate::geometry::{Mesh, Way};
 
-/// Excess, cells, that stays where it is: ten times what rounding leaves of a sum.
-const NOTHING: f64 = 1e-13;
+/// Excess, cells, that stays where it is: less would be passed to and fro by the rounding of sums.
+const NOTHING: f64 = 10.0 * ROUNDING;
 
 /// A face by which excess may leave a pore.
 #[derive(Clone, Copy)]
@@ -74,27 +74,22 @@ fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
     let mut given = vec![0.0; ways.len()];
     let mut left = excess;
     for (weight, to_room) in kinds {
-        let roomy = |way: &Outlet, given: f64| !to_room || way.room > given;
-        let all: f64 = (ways.iter().zip(&given))
-            .filter(|(way, given)| roomy(way, **given))
-            .map(|(way, _)| weight(way))
-            .sum();
+        let roomy = |&i: &usize| !to_room || ways[i].room > given[i];
+        let open: Vec<usize> = (0..ways.len()).filter(roomy).collect();
+        let all: f64 = open.iter().map(|&i| weight(&ways[i])).sum();
         if all <= NOTHING {
             continue;
         }
         let mut passed = 0.0;
-        for (way, given) in ways.iter().zip(&mut given) {
-            if roomy(way, *given) {
-                let share = left * weight(way) / all;
-                let most = if to_room {
-                    way.room - *given
-                } else {
-                    f64::INFINITY
-                };
-                let share = share.min(most);
-                *given += share;
-                passed += share;
-            }
+        for i in open {
+            let share = left * weight(&ways[i]) / all;
+            let share = if to_room {
+                share.min(ways[i].room - given[i])
+            } else {
+                share
+            };
+            given[i] += share;
+            passed += share;
         }
         left -= passed;
         if left <= NOTHING {

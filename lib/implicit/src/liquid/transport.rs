@@ -6,15 +6,20 @@ use super::overflow::overflow;
 use super::water::carry;
 use crate::geometry::{Mesh, Way};
 
-/// Least part of the surface's normal along a face's axis for which the face passes on what lies ahead.
+/// Least part of the surface's normal along a face's axis, of that aside, for which the face passes on what lies ahead: with less, faces
+/// along a surface would; with more, a front that is hardly inclined is smeared.
 const NORMAL: f64 = 0.7;
 /// Cells that liquid crosses at most between two looks at the surface: a front keeps its shape to first order in it, and
 /// looks cost next to nothing beside a solution.
 const CROSSED: f64 = 0.25;
 
-/// Volume that is rounding, cells: at most a hundred bits of a full cell.
-pub(super) const ROUNDING: f64 = 1e-14;
-/// Passes after which what is left of an excess or a lack stays: all that settle take fewer.
+/// Volume, cells, that counts as none: what rounding leaves behind a front. A larger one would be liquid that is lost.
+pub(crate) const TRACE: f64 = 1e-9;
+/// Part of a volume, or of a full cell, that is rounding: fifty bits. With less, sums that are right never settle; with a thousand times
+/// as much, liquid goes astray.
+pub(crate) const ROUNDING: f64 = 1e-14;
+/// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is: all that
+/// settle take fewer.
 pub(super) const PASSES: usize = 100;
 
 /// Liquid after a step.
@@ -40,7 +45,7 @@ pub(crate) fn transport(
     dt: f64,
 ) -> Moved {
     let fastest = velocity.iter().fold(0.0_f64, |most, v| v.abs().max(most));
-    let parts = (fastest * dt / CROSSED - 1e-9).ceil().max(1.0);
+    let parts = (fastest * dt / CROSSED - TRACE).ceil().max(1.0);
     let swept: Vec<f64> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)
@@ -51,18 +56,14 @@ pub(crate) fn transport(
         lost: [0.0; 2],
     };
     for _ in 0..parts as usize {
-        moved = look(mesh, moved, full, capacities, &swept);
+        look(mesh, &mut moved, full, capacities, &swept);
     }
     moved
 }
 
 /// Moves the liquid on by the volumes that faces sweep.
-fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[f64]) -> Moved {
-    let Moved {
-        mut volumes,
-        mut water,
-        mut lost,
-    } = before;
+fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept: &[f64]) {
+    let (volumes, water) = (&mut moved.volumes, &mut moved.water);
     let held = volumes.clone();
     let pores = 0..mesh.pores.len();
     let fractions: Vec<f64> = (pores.clone().into_par_iter())
@@ -91,21 +92,16 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         .for_each(|(pore, volume)| {
             *volume += net_inflow(mesh, &flux, pore);
         });
-    give_back(mesh, &mut volumes, &mut flux);
-    overflow(mesh, &mut volumes, capacities, full, swept, &mut flux);
+    give_back(mesh, volumes, &mut flux);
+    overflow(mesh, volumes, capacities, full, swept, &mut flux);
     if !water.is_empty() {
-        carry(mesh, &held, &mut water, &flux);
+        carry(mesh, &held, water, &flux);
     }
     for (pore, volume) in volumes.iter_mut().enumerate() {
         if mesh.is_beyond(mesh.cell(pore)) {
-            lost[0] += std::mem::take(volume);
-            lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
+            moved.lost[0] += std::mem::take(volume);
+            moved.lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
         }
-    }
-    Moved {
-        volumes,
-        water,
-        lost,
     }
 }
 

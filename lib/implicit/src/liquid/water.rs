@@ -1,11 +1,7 @@
 //! Water that goes with the liquid.
 
+use super::transport::{PASSES, ROUNDING};
 use crate::geometry::Mesh;
-
-/// Passes after which what goes through pores that pass on more than they hold counts as it is.
-const PASSES: usize = 50;
-/// Change of a part of water that is rounding.
-const ROUNDING: f64 = 1e-15;
 
 /// Moves the `water` in liquid `volumes` by the liquid that crossed each face. A pore passes on the part of water that it
 /// had, or, where it passes on more than it held, that with what came in.

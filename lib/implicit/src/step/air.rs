@@ -4,7 +4,7 @@ use physics::{Array, Boundary, Saved, restored};
 
 use super::Implicit;
 use crate::air::{Air, Gas};
-use crate::geometry::ROUNDING;
+use crate::geometry::DRIFT;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
 /// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
@@ -24,22 +24,19 @@ pub(super) struct HeldAir {
 }
 
 impl Implicit {
-    /// Empty volume of each pore with a gap of `height`, cells.
-    fn void(&self, height: f64) -> Vec<f64> {
+    /// Empty volume of each pore between steps, cells.
+    fn void(&self) -> Vec<f64> {
         let pores = self.state.volumes.iter().enumerate();
         pores
-            .map(|(pore, volume)| (self.mesh.volume_at(pore, height) - volume).max(0.0))
+            .map(|(pore, volume)| (self.mesh.volume_at(pore, self.height) - volume).max(0.0))
             .collect()
     }
 
     /// The air at the start: all is outside.
     pub(super) fn first_air(&self) -> HeldAir {
-        let of = self.setup.gas.map_or(Vec::new(), |gas| {
-            let void = self.void(self.height);
-            void.iter().map(|void| gas.outside * void).collect()
-        });
+        let outside = |gas: Gas| self.void().iter().map(|void| gas.outside * void).collect();
         HeldAir {
-            of,
+            of: self.setup.gas.map_or(Vec::new(), outside),
             ..HeldAir::default()
         }
     }
@@ -56,7 +53,7 @@ impl Implicit {
             &self.mesh,
             |pore| unknowns.has_pressure(pore),
             |pore| fractions[pore] >= FULL,
-            &self.void(self.height),
+            &self.void(),
             &self.state.air.of,
             // With a clamp, its body leaves room.
             self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
@@ -94,8 +91,7 @@ impl Implicit {
         let wetting = wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
             cosine: wetting.contact_angle.cos(),
-            slowing: setup.settings.dynamic_angle,
-            viscosity,
+            slowing: setup.settings.dynamic_angle * viscosity,
             dt,
             shorter: match self.state.steps {
                 0 => 1.0,
@@ -103,21 +99,8 @@ impl Implicit {
             },
         });
         let geometry = (&setup.lattice, &setup.chords, &self.mesh);
-        Fronts::new(
-            geometry,
-            (unknowns, torn),
-            around,
-            wetting,
-            &self.state.flow.velocity,
-        )
-    }
-
-    /// Whether each pore is torn, of a liquid that can be: none is yet.
-    pub(super) fn untorn(&self) -> Vec<bool> {
-        match self.setup.liquid.cavitation_pressure {
-            Some(_) => vec![false; self.mesh.pores.len()],
-            None => Vec::new(),
-        }
+        let before = &self.state.flow.velocity;
+        Fronts::new(geometry, (unknowns, torn), around, wetting, before)
     }
 
     /// Finds anew which pores are torn, those whose liquid would carry more tension than it can and comes apart; whether they
@@ -142,7 +125,7 @@ impl Implicit {
         let mut others = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
-                true => outflow(pore) * dt > ROUNDING,
+                true => outflow(pore) * dt > DRIFT,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
             others |= now != *torn;
@@ -169,7 +152,7 @@ impl Implicit {
             pockets: (air.pockets.len() + air.dry.len()) as u64,
             covered: (1e6 * air.covered / all.max(f64::MIN_POSITIVE)).round() as u64,
             astray: self.state.air.astray + u64::from(!settled),
-            of: air.after(&self.void(self.height), gas.outside),
+            of: air.after(&self.void(), gas.outside),
         };
     }
 

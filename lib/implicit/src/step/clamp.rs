@@ -8,14 +8,12 @@ use super::solve::{Middle, Solved};
 use crate::settings::MISSED;
 use crate::system::{Drive, Flow, STILL};
 
-/// Part of the travel that is left from which on a step that covers it is made to end it.
+/// Part of the travel that is left from which on a step that covers it is made to end it: from less on, steps grow too long; from more
+/// on, a last one is left that hardly moves.
 const NEAR: f64 = 0.7;
 /// Solves that bring a step nearer to the end, and a clamp under a pressure to its speed: either settles in one or two where it
 /// settles at all.
 const SOLVES: usize = 4;
-/// Part of the gap's height by which the middle of a step may be off that of its speed: flow goes with the cube of the height.
-const OFF: f64 = 0.01;
-
 /// Length of the step that goes as far as `left`, of lengths and speeds of the last one and the one `before`: speeds are linear
 /// in the length.
 fn arrival(left: f64, [dt, speed]: [f64; 2], before: Option<[f64; 2]>) -> f64 {
@@ -31,7 +29,8 @@ fn arrival(left: f64, [dt, speed]: [f64; 2], before: Option<[f64; 2]>) -> f64 {
 
 /// Whether a height of the gap by the speed found is not that `assumed`.
 fn is_off(assumed: f64, height: f64) -> bool {
-    (height - assumed).abs() > OFF * assumed
+    // A part of it ten times as large as what is missed: flow goes with the cube of the height, and each solve costs a step.
+    (height - assumed).abs() > 10.0 * MISSED * assumed
 }
 
 impl Implicit {
@@ -65,7 +64,7 @@ impl Implicit {
         let near = (MISSED * left).max(STILL);
         if reach > left + near {
             let dt = solved.dt;
-            let middle = self.middle(dt, Some(&solved.flow));
+            let middle = self.middle(dt, Some(&solved.flow))?;
             solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
         }
         let reach = solved.flow.speed * solved.dt;
@@ -92,7 +91,7 @@ impl Implicit {
             Some(_) => dt,
             None => 0.5 * dt,
         });
-        let mut middle = self.middle(dt, None);
+        let mut middle = self.middle(dt, None)?;
         for _ in 1..SOLVES {
             let solved = self.solve_middle(&middle, guess)?;
             let [assumed, height] = self.heights(&middle, &solved, dt);
@@ -102,7 +101,7 @@ impl Implicit {
             }
             // A clamp that goes faster may meet liquid that it would not have met; one that goes slower leaves none that
             // it met, or it would go to and fro.
-            let other = self.middle(dt, Some(&solved.flow));
+            let other = self.middle(dt, Some(&solved.flow))?;
             let stays = match height < assumed {
                 true => !is_off && !other.meets_more(&middle),
                 false => middle.meets_more(&other),

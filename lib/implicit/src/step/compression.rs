@@ -3,10 +3,8 @@
 use physics::Tait;
 
 use crate::geometry::Mesh;
+use crate::liquid::ROUNDING;
 use crate::settings::MISSED;
-
-/// Part of the volume that is rounding: without it liquid that flies on, none of which changes, does not settle.
-const ROUNDING: f64 = 1e-12;
 
 /// The volumes of full pores in a step.
 pub(super) struct Compression<'a> {
@@ -73,6 +71,7 @@ impl Compression<'_> {
                 volume += after;
             }
         }
+        // Liquid that flies on, none of which changes, is off by rounding.
         off <= MISSED * all + ROUNDING * volume
     }
 }

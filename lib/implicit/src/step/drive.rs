@@ -1,13 +1,8 @@
 //! Speed of the body that closes the gap: constant, or that of a clamp under load control.
 
-use physics::{Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
+use physics::{CONTROLLED, Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
 
-/// Relative excess over the pressure limit that is tolerated: half of the 1 % aimed at.
-const TOLERANCE: f64 = 5e-3;
-
-/// Part of a programme's largest pressure that excess over a pressure next to nothing is measured by: a release holds
-/// nothing, by which no residual can be measured.
-const FAINT: f64 = 1e-3;
+use crate::settings::MISSED;
 
 /// Speed of the clamp.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,7 +42,8 @@ impl Hold {
         Self {
             speeds: [full, -stage.speed],
             limit: programme.set_pressure(0.0),
-            least: FAINT * programme.largest(),
+            // A release holds nothing, by which no residual can be measured.
+            least: MISSED * programme.largest(),
             held: releases,
             releases,
         }
@@ -153,7 +149,7 @@ impl ClampDrive {
         let Control::Limit(hold) = &mut self.control else {
             return None;
         };
-        if hold.held || pressure <= hold.limit + TOLERANCE * hold.scale() {
+        if hold.held || pressure <= hold.limit + CONTROLLED * hold.scale() {
             return None;
         }
         hold.held = true;

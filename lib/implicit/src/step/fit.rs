@@ -3,10 +3,13 @@
 use super::Implicit;
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Kept, carried_pressures, carried_region, carried_velocities, carried_volumes};
+use crate::settings::LARGEST_CFL;
 use crate::system::{Edges, Links};
+use crate::water::Walls;
 
-/// Cells around the liquid that a mesh has. It is made anew where half of them are left: liquid crosses less than two in a step.
-pub(super) const MARGIN: usize = 4;
+/// Cells around the liquid that a mesh has: twice those that it comes to lie in within a step. The mesh is made anew where half of
+/// them are left.
+pub(super) const MARGIN: usize = 2 * (LARGEST_CFL as usize + 1);
 
 impl Implicit {
     /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
@@ -49,13 +52,20 @@ impl Implicit {
             wet.water = carried_volumes(mesh, &old, &wet.water);
             wet.soaked = carried_volumes(mesh, &old, &wet.soaked);
         }
-        self.walls = self.setup.taking_walls(mesh);
         let kept = match self.links.is_empty() {
             true => Kept::default(),
             false => Kept::new(mesh, &old),
         };
-        self.links = Links::new(&self.setup.channels(mesh), &kept, &self.links);
-        self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);
+        self.find_walls(&kept);
+    }
+
+    /// Finds what the walls of the mesh do, but for faces that are `kept` from the one before.
+    pub(super) fn find_walls(&mut self, kept: &Kept) {
+        let (setup, mesh) = (&self.setup, &self.mesh);
+        let water = setup.liquid.water.as_ref();
+        self.walls = water.map(|_| Walls::new(&setup.lattice, mesh, &setup.take));
+        self.links = Links::new(&setup.channels(mesh), kept, &self.links);
+        self.edges = Edges::new(mesh, &setup.lattice, kept, &self.edges);
     }
 
     /// Rows of the grid that hold liquid, and those of the gap.

@@ -5,16 +5,18 @@ use std::time::Instant;
 use physics::{Motion, StepLimit, StepReport};
 
 use super::Implicit;
+use super::exchange::Exchange;
 use super::solve::Solved;
 use crate::clock::Stage;
 use crate::liquid::{Moved, TRACE, transport};
 use crate::settings::LARGEST_CFL;
 use crate::system::Flow;
-use crate::water::Exchange;
 
-/// Most by which flow is expected to go on growing: a flow that starts is no trend.
+/// Most by which flow is expected to go on growing: without, steps of a flow that grows are solved twice; a flow that starts is no
+/// trend.
 const FORESEEN: f64 = 1.25;
-/// Fraction of the faces, the fastest, that the Courant number ignores: jets through holes of a voxel.
+/// Fraction of the faces, the fastest, that the Courant number ignores: of more, liquid goes astray; of none, jets through holes of a
+/// voxel set the step.
 const JETS: f64 = 1e-3;
 
 impl Implicit {
@@ -49,7 +51,7 @@ impl Implicit {
         self.move_bodies(travel, dt);
         let pressure = |body: Option<usize>, sign: f64| {
             body.map_or(0.0, |body| {
-                let force = match self.setup.lattice.mover == Some(body) {
+                let force = match self.setup.lattice.is_moving(body) {
                     true => -sign * self.setup.lattice.speed_of(body) * flow.force,
                     false => sign * forces[body],
                 };
@@ -64,7 +66,8 @@ impl Implicit {
             travel_m: travel,
             pressure_bottom: pressure(self.setup.bottom, -1.0),
             pressure_top: pressure(self.setup.top, 1.0),
-            lost: self.setup.points_of(self.state.lost),
+            // One point a voxel.
+            lost: (self.state.lost * self.setup.lattice.k.pow(3) as f64).round() as u64,
             iterations: flow.iterations,
         };
         self.state.flow = flow;
@@ -119,7 +122,7 @@ impl Implicit {
         state.volumes = volumes;
         if let Some(wet) = &mut state.wet {
             wet.water = water;
-            wet.account.left += water_lost;
+            wet.left += water_lost;
         }
         state.lost += lost;
     }
@@ -135,7 +138,7 @@ impl Implicit {
             for a in 0..3 {
                 displacement[a] += slide[a] * dt;
             }
-            if lattice.mover == Some(body) {
+            if lattice.is_moving(body) {
                 displacement[1] += lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
             }
         }

@@ -1,14 +1,13 @@
 //! `physics::Scheme` of the implicit scheme: what it shows, saves and restores.
 
 use physics::{
-    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Saving, Scheme, StageTime,
+    Array, Diagnostics, Failure, LiquidState, PressRun, SET, Saved, Saving, Scheme, StageTime,
     StepLimit, StepReport, restored,
 };
 
 use super::Implicit;
 use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::{Kept, Profile, Shown, points};
-use crate::system::{Edges, FlowField, Links};
+use crate::liquid::Kept;
 
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
@@ -44,30 +43,7 @@ impl Scheme for Implicit {
     }
 
     fn liquid(&self) -> LiquidState {
-        let (setup, state) = (&self.setup, &self.state);
-        let flow = &state.flow;
-        // Those of the last step are of the gap at its middle.
-        let mut links = self.links.clone();
-        let fractions: Vec<f64> = (state.volumes.iter().enumerate())
-            .map(|(pore, volume)| volume / self.mesh.volume(pore))
-            .collect();
-        links.measure(&setup.channels(&self.mesh), &fractions);
-        let field = FlowField {
-            links: &links,
-            ..self.field(flow)
-        };
-        let (rates, _) = field.pore_rates(setup.liquid.shear_rate);
-        let volumes: Vec<f64> = (0..self.mesh.pores.len())
-            .map(|pore| state.volumes[pore] * self.compressed(pore))
-            .collect();
-        let shown = Shown {
-            volumes: &volumes,
-            profile: self.profile(),
-            pressure: &|pore| flow.pressure[pore] * setup.units.viscosity,
-            rate: &|pore| rates[pore],
-            solids: &|pore| self.solids_of(pore),
-        };
-        points(&self.mesh, setup.place, &shown)
+        self.points()
     }
 
     fn displacements(&self) -> Vec<[f64; 3]> {
@@ -111,9 +87,9 @@ impl Scheme for Implicit {
         let programme = state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME, Array::F64(state))));
         arrays.extend(self.save_air());
+        arrays.extend(self.save_water());
         (arrays.into_iter())
             .map(|(name, array)| (name.to_owned(), Saving::Whole(array)))
-            .chain(self.save_water())
             .collect()
     }
 
@@ -186,17 +162,16 @@ impl Scheme for Implicit {
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement;
-        self.walls = self.setup.taking_walls(&mesh);
-        let none = Links::default();
-        self.links = Links::new(&self.setup.channels(&mesh), &Kept::default(), &none);
-        let (lattice, none) = (&self.setup.lattice, Edges::default());
-        self.edges = Edges::new(&mesh, lattice, &Kept::default(), &none);
         (self.mesh, self.height) = (mesh, height);
+        self.find_walls(&Kept::default());
         Ok(())
     }
 
     fn has_set(&self) -> bool {
-        self.has_dried()
+        // As thick by its loss of water, with cure, as one that has set.
+        let cure = self.setup.liquid.cure.as_ref();
+        let cured = cure.map_or(1.0, |cure| cure.factor(self.state.time) / cure.factor(0.0));
+        (self.state.wet.as_ref()).is_some_and(|wet| wet.fluidity / cured <= 1.0 / SET)
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
@@ -221,7 +196,7 @@ impl Scheme for Implicit {
     }
 
     fn objection(&self) -> Option<String> {
-        /// Part of the steps that may be so.
+        /// Part of the steps that may be so: a few settle late in sound runs.
         const MOST: f64 = 0.1;
         let steps = self.state.steps;
         let (above, pressure) = self.state.drive.broken;
@@ -277,22 +252,5 @@ impl Implicit {
         let region = Region::of_bits(size, saved.u32s("region")?)
             .ok_or("the checkpoint's region is not one of its rows")?;
         Ok(Mesh::new(lattice, rows, range, region))
-    }
-
-    /// Volume of the liquid of a pore over that at no pressure, Tait's J.
-    fn compressed(&self, pore: usize) -> f64 {
-        let pressure = self.state.flow.pressure[pore] * self.setup.units.viscosity;
-        1.0 + self.setup.liquid.tait.volume_change(pressure)
-    }
-
-    /// The flow within pores.
-    fn profile(&self) -> Profile<'_> {
-        Profile {
-            lattice: &self.setup.lattice,
-            mesh: &self.mesh,
-            velocity: &self.state.flow.velocity,
-            speed: self.state.flow.speed,
-            influence_length: self.setup.influence_length,
-        }
     }
 }

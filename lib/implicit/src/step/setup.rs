@@ -11,7 +11,6 @@ use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
 use crate::liquid::{Place, deposit};
 use crate::settings::Settings;
 use crate::system::{Channels, STILL, Scales};
-use crate::water;
 
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +54,7 @@ pub(super) struct Setup {
     /// Air that has pressures where it is closed off.
     pub(super) gas: Option<Gas>,
     /// Bodies that take water.
-    take: Vec<bool>,
+    pub(super) take: Vec<bool>,
     /// How each body moves.
     pub(super) motions: Vec<Motion>,
 }
@@ -130,12 +129,6 @@ impl Setup {
         }
     }
 
-    /// Walls of a mesh that take water, of a liquid that loses it.
-    pub(super) fn taking_walls(&self, mesh: &Mesh) -> Option<water::Walls> {
-        let walls = || water::Walls::new(&self.lattice, mesh, &self.take);
-        self.liquid.water.as_ref().map(|_| walls())
-    }
-
     /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean
     /// of the points, of which pores hold these `volumes`, in the pores on its two sides.
     ///
@@ -181,8 +174,8 @@ impl Setup {
         };
         let stages = &scene.programme;
         let programme = (!stages.is_empty()).then(|| PressRun::new(stages.clone(), travel));
-        let full = self.lattice.mover.map_or(0.0, |body| {
-            scene.velocity(scene.bodies[body].motion)[1].abs()
+        let full = self.lattice.moving.map_or(0.0, |moving| {
+            scene.velocity(scene.bodies[moving.body].motion)[1].abs()
         });
         let acoustic = self.units.cell_m / self.liquid.sound_speed();
         ClampDrive::new(scene.clamp, programme, acoustic, full)
@@ -220,11 +213,6 @@ impl Setup {
     /// Pressure of a force on the area of the bond, Pa.
     pub(super) fn pressure(&self, force: f64) -> f64 {
         force * self.units.force() / self.area
-    }
-
-    /// Points that a volume of liquid would be, one a voxel.
-    pub(super) fn points_of(&self, volume: f64) -> u64 {
-        (volume * (self.lattice.k.pow(3)) as f64).round() as u64
     }
 }
 

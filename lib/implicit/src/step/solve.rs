@@ -7,6 +7,7 @@ use saddle_point::SaddleSolver;
 
 use super::Implicit;
 use super::compression::Compression;
+use super::exchange::Exchange;
 use super::failure::unsolved;
 use crate::air::Air;
 use crate::clock::{Clock, Stage};
@@ -15,17 +16,24 @@ use crate::system::{
     Drive, FULL, Flow, FlowField, PASSES, Problem, Search, Unknowns, Viscosities, forces, halves,
     masses, solve, stiffnesses,
 };
-use crate::water::Exchange;
 
-/// The liquid in the middle of a step.
+/// The liquid in the middle of a step, and what all solutions have in common that begin there.
 pub(super) struct Middle {
     dt: f64,
-    /// Closing speed that puts the rows there, cells/s.
+    /// Closing speed that puts the rows there, cells/s, and the height of the gap at the end of the step by it, cells.
     pub(super) closing: f64,
+    end: f64,
     /// Which pores are full at its start.
     full: Vec<bool>,
     /// What pores are filled to.
     fractions: Vec<f64>,
+    /// Liquid in the halves of each face, and its volume.
+    halves: Vec<[f64; 2]>,
+    masses: Vec<f64>,
+    /// Factor of the viscosity by cure.
+    viscosity: f64,
+    /// Of a liquid that loses water: what it loses.
+    lost: Option<Exchange>,
 }
 
 impl Middle {
@@ -53,70 +61,68 @@ pub(super) struct Solved {
     pub(super) exchange: Option<Exchange>,
 }
 
-/// What all passes of a step have in common.
-struct Given<'a> {
-    middle: &'a Middle,
-    drive: Drive,
-    /// Height of the gap at the end of the step, cells.
-    end: f64,
-    /// Liquid in the halves of each face, and its volume.
-    halves: Vec<[f64; 2]>,
-    masses: Vec<f64>,
-    /// Factor of the viscosity by cure.
-    viscosity: f64,
-    /// Of a liquid that loses water: what it loses.
-    lost: Option<Exchange>,
-}
-
 impl Implicit {
-    /// Puts the rows where they are in the middle of a step of `dt` (s); which pores are full now, and what they are filled
-    /// to in the middle: by a `flow`, or by the last and the speed that the clamp is asked for.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
-        let height = self.height;
-        let state = &self.state;
-        let asked = state.drive.speed / self.setup.units.cell_m;
+    /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
+    /// that the clamp is asked for.
+    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Result<Middle, String> {
+        let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
-        let full: Vec<bool> = (0..self.mesh.pores.len())
-            .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
+        let full: Vec<bool> = (self.state.volumes.iter().enumerate())
+            .map(|(pore, volume)| *volume >= FULL * self.mesh.volume_at(pore, self.height))
             .collect();
-        if self.setup.lattice.moving.is_some() {
+        let closes = self.setup.lattice.moving.is_some();
+        if closes {
             self.mesh.set_height(self.middle_height(dt, closing));
         }
+        let fractions = self.filled(dt, &full, flow);
         let begun = Instant::now();
-        let mesh = &self.mesh;
-        let moved = if state.steps == 0 {
-            state.volumes.clone()
-        } else {
-            transport(
-                mesh,
-                [&state.volumes, &[]],
-                &full,
-                &self.capacities(),
-                &flow.unwrap_or(&state.flow).velocity,
-                0.5 * dt,
-            )
-            .volumes
-        };
-        self.clock.add(Stage::Transport, begun);
-        let fractions: Vec<f64> = (0..mesh.pores.len())
-            .map(|pore| match moved[pore] / mesh.volume(pore) {
-                _ if full[pore] => 1.0,
-                then if then >= FULL => 1.0,
-                then => then,
-            })
-            .collect();
-        let begun = Instant::now();
-        if self.setup.lattice.moving.is_some() {
+        if closes {
             let channels = self.setup.channels(&self.mesh);
             self.links.measure(&channels, &fractions);
         }
         self.clock.add(Stage::Geometry, begun);
-        Middle {
+        let begun = Instant::now();
+        let lost = self.exchange(dt, &fractions)?;
+        if lost.is_some() {
+            self.clock.add(Stage::Water, begun);
+        }
+        let begun = Instant::now();
+        let halves = halves(&self.mesh, &fractions);
+        let masses = masses(&self.mesh, &halves);
+        self.clock.add(Stage::Assembly, begun);
+        let cure = self.setup.liquid.cure.as_ref();
+        Ok(Middle {
             dt,
             closing,
+            end: self.end_height(dt, closing),
             full,
             fractions,
-        }
+            halves,
+            masses,
+            viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
+            lost,
+        })
+    }
+
+    /// What pores are filled to in the middle of a step of `dt` (s), those `full` at its start and others, by a `flow` or the last.
+    fn filled(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
+        let begun = Instant::now();
+        let (state, mesh) = (&self.state, &self.mesh);
+        let velocity = &flow.unwrap_or(&state.flow).velocity;
+        let moved = match state.steps {
+            0 => state.volumes.clone(),
+            _ => {
+                let liquid = [&state.volumes[..], &[]];
+                transport(mesh, liquid, full, &self.capacities(), velocity, 0.5 * dt).volumes
+            }
+        };
+        self.clock.add(Stage::Transport, begun);
+        let fraction = |(pore, volume): (usize, f64)| match volume / mesh.volume(pore) {
+            _ if full[pore] => 1.0,
+            then if then >= FULL => 1.0,
+            then => then,
+        };
+        moved.into_iter().enumerate().map(fraction).collect()
     }
 
     /// Height of the gap in the middle of a step of `dt` (s) at a `closing` speed (cells/s), cells.
@@ -163,27 +169,25 @@ impl Implicit {
     ) -> Result<Solved, String> {
         let (setup, mesh, dt) = (&self.setup, &self.mesh, middle.dt);
         let fractions = &middle.fractions;
-        let given = self.given(middle, drive, clock)?;
-        let mut torn = self.untorn();
+        let mut torn = vec![false; mesh.pores.len()];
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
         let mut air = self.closed_off(&unknowns, fractions, dt);
-        let mut search = self.search(given.viscosity, guess);
+        let mut search = self.search(middle.viscosity, guess);
         let mut flow = take(guess);
         let (mut forces, mut iterations) = (Vec::new(), 0);
         let (mut settled, mut astray) = (false, false);
         for _ in 0..PASSES {
             let begun = Instant::now();
-            let thick = given
-                .lost
-                .as_ref()
-                .map(|exchange| (search.used).thickened(mesh, &self.edges, &exchange.factor));
+            let lost = middle.lost.as_ref();
+            let thick = lost.map(|lost| (search.used).thickened(mesh, &self.edges, &lost.factor));
             let viscosities = thick.as_ref().unwrap_or(&search.used);
             clock.add(Stage::Viscosity, begun);
             let last = take(&mut flow);
             let ends = (&torn[..], air.as_ref());
             let holds;
+            let driven = (middle, drive);
             (flow, forces, holds) =
-                self.solve_pass(&given, &unknowns, viscosities, ends, &last, (solver, clock))?;
+                self.solve_pass(driven, &unknowns, viscosities, ends, &last, (solver, clock))?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;
@@ -217,36 +221,7 @@ impl Implicit {
             settled,
             air: air.map(|air| (air, !astray)),
             arrives: false,
-            exchange: given.lost,
-        })
-    }
-
-    /// What all passes of a step have in common.
-    fn given<'a>(
-        &self,
-        middle: &'a Middle,
-        drive: Drive,
-        clock: &mut Clock,
-    ) -> Result<Given<'a>, String> {
-        let (dt, fractions) = (middle.dt, &middle.fractions);
-        let cure = self.setup.liquid.cure.as_ref();
-        let begun = Instant::now();
-        let lost = self.exchange(dt, fractions)?;
-        if lost.is_some() {
-            clock.add(Stage::Water, begun);
-        }
-        let begun = Instant::now();
-        let halves = halves(&self.mesh, fractions);
-        let masses = masses(&self.mesh, &halves);
-        clock.add(Stage::Assembly, begun);
-        Ok(Given {
-            middle,
-            drive,
-            end: self.end_height(dt, middle.closing),
-            halves,
-            masses,
-            viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
-            lost,
+            exchange: middle.lost.clone(),
         })
     }
 
@@ -280,7 +255,7 @@ impl Implicit {
     /// its law.
     fn solve_pass(
         &self,
-        given: &Given,
+        (middle, drive): (&Middle, Drive),
         unknowns: &Unknowns,
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
@@ -288,10 +263,9 @@ impl Implicit {
         (solver, clock): (&mut SaddleSolver, &mut Clock),
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let middle = given.middle;
         let (dt, full, fractions) = (middle.dt, &middle.full, &middle.fractions);
-        let stiffnesses = stiffnesses(mesh, &given.halves, viscosities);
-        let fronts = self.fronts(unknowns, torn, air, given.viscosity, dt);
+        let stiffnesses = stiffnesses(mesh, &middle.halves, viscosities);
+        let fronts = self.fronts(unknowns, torn, air, middle.viscosity, dt);
         let problem = Problem {
             lattice: &setup.lattice,
             mesh,
@@ -299,13 +273,13 @@ impl Implicit {
             edges: &self.edges,
             unknowns,
             fractions,
-            halves: &given.halves,
-            masses: &given.masses,
+            halves: &middle.halves,
+            masses: &middle.masses,
             stiffnesses: &stiffnesses,
             viscosities,
             before: &state.flow.velocity,
             speed_before: state.flow.speed,
-            end_height: given.end,
+            end_height: middle.end,
             fronts: &fronts,
             pockets: air.map_or(&[], |air| &air.pockets),
             scales: setup.scales(dt),
@@ -317,18 +291,18 @@ impl Implicit {
             volumes: &state.volumes,
             pressure: &state.flow.pressure,
             full,
-            heights: [self.height, given.end],
+            heights: [self.height, middle.end],
             times: [dt, self.crossing()],
         };
         let mut carried = compression.released(&unknowns.pores, &guess.pressure);
-        if let Some(exchange) = &given.lost {
+        if let Some(exchange) = &middle.lost {
             // What full pores gain in the step, those with a pressure hold more.
             let pores = unknowns.pores.iter().map(|&pore| pore as usize);
             for (carried, pore) in carried.iter_mut().zip(pores).filter(|of| full[of.1]) {
                 *carried += exchange.gained[pore] / dt;
             }
         }
-        let flow = solve(&problem, &carried, given.drive, guess, solver, clock)
+        let flow = solve(&problem, &carried, drive, guess, solver, clock)
             .map_err(|error| unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());

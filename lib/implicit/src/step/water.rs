@@ -1,16 +1,14 @@
 //! Loss of water: what walls take in a step, and what the liquid is left with.
 
-use physics::{Array, SET, Saved, Saving, WaterState};
+use physics::{Array, Saved, WaterState};
 
+use super::exchange::Exchange;
 use super::setup::Setup;
 use super::solve::Solved;
 use super::{Implicit, THICKENS};
-use crate::geometry::ROUNDING;
-use crate::water::{Account, Exchange, Medium};
+use crate::geometry::DRIFT;
 
-/// Change of ln(viscosity) by drying from which a step is taken again, shorter: half above what it aims at, so few are.
-const MOST_THICKENS: f64 = 0.3;
-/// Names of the arrays that hold the water in the liquid, in the walls of each pore, and the account.
+/// Names of the arrays of a checkpoint that hold the water in the liquid, in the walls of each pore, and the account.
 const WATER: &str = "water";
 const SOAKED: &str = "water_in_walls";
 const ACCOUNT: &str = "water_account";
@@ -21,13 +19,26 @@ pub(super) struct Wet {
     /// Water in the liquid of each pore, and in its walls, cells.
     pub(super) water: Vec<f64>,
     pub(super) soaked: Vec<f64>,
-    pub(super) account: Account,
+    /// Water in the liquid at the start, in the walls, and gone from the domain with its liquid, cells.
+    start: f64,
+    in_walls: f64,
+    pub(super) left: f64,
+    /// Change of ln(viscosity) per time where the liquid dries, 1/s.
+    pace: f64,
+    /// Mean of 1/factor of the viscosity over the liquid.
+    pub(super) fluidity: f64,
 }
 
 impl Wet {
     /// For how long the loss of water leaves the viscosity as it is, s.
     pub(super) fn steady(&self) -> f64 {
-        THICKENS / self.account.pace
+        THICKENS / self.pace
+    }
+
+    /// Water found nowhere, over that at the start.
+    fn missing(&self) -> f64 {
+        let held = self.water.iter().sum::<f64>();
+        (self.start - held - self.in_walls - self.left) / self.start
     }
 
     /// Takes what a step of `dt` (s) moves out of the liquid.
@@ -37,9 +48,9 @@ impl Wet {
             volumes[pore] += gained;
             self.soaked[pore] += taken;
         }
-        self.account.in_walls += exchange.taken.iter().sum::<f64>();
-        self.account.pace = exchange.change / dt;
-        self.account.fluidity = exchange.fluidity;
+        self.in_walls += exchange.taken.iter().sum::<f64>();
+        self.pace = exchange.change / dt;
+        self.fluidity = exchange.fluidity;
     }
 }
 
@@ -47,7 +58,8 @@ impl Solved {
     /// How long a step may be at most, s, where the liquid dries too fast in this one.
     pub(super) fn dries_too_fast(&self) -> Option<f64> {
         let change = self.exchange.as_ref()?.change;
-        (change > MOST_THICKENS).then(|| self.dt * THICKENS / change)
+        // Half above what steps aim at, so few are taken again.
+        (change > 1.5 * THICKENS).then(|| self.dt * THICKENS / change)
     }
 }
 
@@ -60,52 +72,18 @@ impl Setup {
             .map(|volume| volume * start / (1.0 + start))
             .collect();
         Some(Wet {
-            account: Account {
-                start: water.iter().sum(),
-                fluidity: 1.0,
-                ..Account::default()
-            },
+            start: water.iter().sum(),
             soaked: vec![0.0; water.len()],
             water,
+            in_walls: 0.0,
+            left: 0.0,
+            pace: 0.0,
+            fluidity: 1.0,
         })
     }
 }
 
 impl Implicit {
-    /// What a step of `dt` (s) moves of the water, in pores filled to `fractions` in its middle.
-    pub(super) fn exchange(&self, dt: f64, fractions: &[f64]) -> Result<Option<Exchange>, String> {
-        let (Some(water), Some(walls), Some(wet)) =
-            (&self.setup.liquid.water, &self.walls, &self.state.wet)
-        else {
-            return Ok(None);
-        };
-        let h = self.setup.units.cell_m;
-        let medium = Medium {
-            mesh: &self.mesh,
-            walls,
-            water,
-            fractions,
-            diffusion: dt * water.diffusivity() / (h * h),
-            uptake: dt * water.uptake() / h,
-            capacity: water.capacity().map_or(f64::INFINITY, |length| length / h),
-        };
-        match Exchange::new(&medium, &self.state.volumes, &wet.water, &wet.soaked) {
-            Some(exchange) => Ok(Some(exchange)),
-            None => Err(
-                "no balance of the water was found: a smaller uptake, a larger diffusivity or a \
-                 flatter viscosity_by_solids is needed"
-                    .into(),
-            ),
-        }
-    }
-
-    /// Whether the liquid is as thick by its loss of water, with cure, as one that has set.
-    pub(super) fn has_dried(&self) -> bool {
-        let cure = self.setup.liquid.cure.as_ref();
-        let cured = cure.map_or(1.0, |cure| cure.factor(self.state.time) / cure.factor(0.0));
-        (self.state.wet.as_ref()).is_some_and(|wet| wet.account.fluidity / cured <= 1.0 / SET)
-    }
-
     /// Where the water is.
     pub(super) fn water_state(&self) -> Option<WaterState> {
         let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
@@ -114,8 +92,8 @@ impl Implicit {
         let volume = self.setup.units.volume();
         Some(WaterState {
             given_off_m3: (solids * water.start() - held) * volume,
-            in_walls_m3: wet.account.in_walls * volume,
-            missing: wet.account.missing(held),
+            in_walls_m3: wet.in_walls * volume,
+            missing: wet.missing(),
             solids: water.solids(held / solids),
         })
     }
@@ -128,18 +106,16 @@ impl Implicit {
     }
 
     /// The arrays of a checkpoint.
-    pub(super) fn save_water(&self) -> Vec<(String, Saving<'_>)> {
+    pub(super) fn save_water(&self) -> Vec<(&'static str, Array)> {
         let Some(wet) = &self.state.wet else {
             return Vec::new();
         };
-        let arrays = [
-            (WATER, wet.water.clone()),
-            (SOAKED, wet.soaked.clone()),
-            (ACCOUNT, wet.account.save()),
-        ];
-        (arrays.into_iter())
-            .map(|(name, array)| (name.to_owned(), Saving::Whole(Array::F64(array))))
-            .collect()
+        let account = [wet.start, wet.in_walls, wet.left, wet.pace, wet.fluidity];
+        vec![
+            (WATER, Array::F64(wet.water.clone())),
+            (SOAKED, Array::F64(wet.soaked.clone())),
+            (ACCOUNT, Array::F64(account.to_vec())),
+        ]
     }
 
     /// The water of a checkpoint whose pores hold liquid `volumes`.
@@ -155,23 +131,31 @@ impl Implicit {
             return Ok(None);
         };
         let (water, soaked) = (saved.f64s(WATER)?, saved.f64s(SOAKED)?);
-        let n = volumes.len();
-        let sound =
-            |(&water, &volume): (&f64, &f64)| (-ROUNDING..=volume + ROUNDING).contains(&water);
-        if water.len() != n
-            || soaked.len() != n
-            || !water.iter().zip(volumes).all(sound)
-            || !soaked
-                .iter()
-                .all(|soaked| (0.0..=f64::MAX).contains(soaked))
-        {
-            return Err("the checkpoint's water is not that of its liquid and walls".into());
-        }
-        let held = water.iter().sum();
-        Ok(Some(Wet {
-            account: wet.account.restore(saved.f64s(ACCOUNT)?, held)?,
+        let account = saved.f64s(ACCOUNT)?;
+        let &[start, in_walls, left, pace, fluidity] = account else {
+            return Err("the checkpoint's account of water is not that of this scheme".into());
+        };
+        let found = Wet {
             water: water.to_vec(),
             soaked: soaked.to_vec(),
-        }))
+            start,
+            in_walls,
+            left,
+            pace,
+            fluidity,
+        };
+        let counts = |x: &f64| (0.0..=f64::MAX).contains(x);
+        let held = |(&water, &volume): (&f64, &f64)| (-DRIFT..=volume + DRIFT).contains(&water);
+        let sound = [water.len(), soaked.len()] == [volumes.len(); 2]
+            && water.iter().zip(volumes).all(held)
+            && soaked.iter().chain(&[in_walls, left, pace]).all(counts)
+            && start == wet.start
+            && fluidity > 0.0
+            && fluidity <= 1.0
+            && found.missing().abs() <= DRIFT;
+        match sound {
+            true => Ok(Some(found)),
+            false => Err("the checkpoint's water is not that of its liquid and walls".into()),
+        }
     }
 }

@@ -27,15 +27,11 @@ impl Edge {
     /// Rate of shear across it by the velocities `u` around it.
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
-        let apart = |open: [u8; 2], pores: [u32; 2], a: u8| {
-            let height = |pore: u32| mesh.edge(pore as usize, usize::from(a));
-            let [low, high] = [0, 1].map(|i| f64::from(open[i]) * height(pores[i]));
-            0.5 * (low + high) / mesh.k as f64
-        };
         let next = mesh.faces[self.next as usize];
-        let along = (u[self.next as usize] - u[face]) / apart(self.open, [f.low, next.low], self.t);
+        let along =
+            (u[self.next as usize] - u[face]) / apart(mesh, self.open, [f.low, next.low], self.t);
         let [low, high] = self.across.map(|face| u[face as usize]);
-        let across = (high - low) / apart(self.aside, [f.low, f.high], f.axis);
+        let across = (high - low) / apart(mesh, self.aside, [f.low, f.high], f.axis);
         (along * f64::from(self.part.signum()) + across).abs()
     }
 
@@ -48,14 +44,13 @@ impl Edge {
     /// lies on the low side.
     pub(crate) fn measured(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
         let f = mesh.faces[face];
-        let (axis, t) = (usize::from(f.axis), usize::from(self.t));
+        let (axis, along) = (usize::from(f.axis), self.axis(mesh, face));
         let edge = |pore: u32, a: usize| mesh.edge(pore as usize, a);
-        let [own, other] = self.open.map(|voxels| f64::from(voxels) / mesh.k as f64);
         let next = mesh.faces[self.next as usize].low;
-        let distance = 0.5 * (own * edge(f.low, t) + other * edge(next, t));
+        let distance = apart(mesh, self.open, [f.low, next], self.t);
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
-        let across = edge(f.low, 3 - axis - t);
-        let lowest = match self.axis(mesh, face) {
+        let length = edge(f.low, along);
+        let lowest = match along {
             1 => 1.0,
             _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
         };
@@ -64,9 +59,16 @@ impl Edge {
             lowest => f64::from(self.factor).powf(lowest),
         };
         let part = f64::from(self.part.abs());
-        let shear = factor * part * across * height / distance;
-        [shear, f64::from(self.part) * across]
+        let shear = factor * part * length * height / distance;
+        [shear, f64::from(self.part) * length]
     }
+}
+
+/// Distance along an axis between the middles of so many open voxels in two pores that meet, cells.
+fn apart(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
+    let [low, high] =
+        [0, 1].map(|i| f64::from(open[i]) * mesh.edge(pores[i] as usize, usize::from(axis)));
+    0.5 * (low + high) / mesh.k as f64
 }
 
 /// The edges of all faces of a mesh.

@@ -19,10 +19,8 @@ pub(crate) struct Wetting {
     pub(crate) tension: f64,
     /// Cosine of the contact angle at rest.
     pub(crate) cosine: f64,
-    /// What it loses per capillary number of a front that advances.
+    /// What it loses per capillary number of a front that advances, times the viscosity in that number.
     pub(crate) slowing: f64,
-    /// Viscosity in that number.
-    pub(crate) viscosity: f64,
     /// Length of the step, s.
     pub(crate) dt: f64,
     /// Length of the step before over that, at most 1.
@@ -38,7 +36,7 @@ impl Wetting {
             false => 1.0 - self.cosine,
         };
         let most = left * self.tension / speed.abs().max(f64::MIN_POSITIVE);
-        (self.slowing * self.viscosity).min(most)
+        self.slowing.min(most)
     }
 
     /// Dry friction over the speed of a front that advanced at `speed` where the passage holds it by the jump of `uneven`. It
@@ -83,7 +81,7 @@ impl Fronts {
         let dry: Vec<bool> = (0..mesh.pores.len())
             .into_par_iter()
             .map(|pore| {
-                torn.get(pore) != Some(&true)
+                !torn[pore]
                     && empty(pore)
                     && (mesh.ways(pore)).any(|way| unknowns.has_pressure(way.beside))
             })

@@ -11,7 +11,7 @@ pub(crate) const PASSES: usize = 30;
 
 /// Largest exponent of a rate that is anticipated, and how near it is found.
 const FARTHEST: f64 = 30.0;
-const NEAR: f64 = 1e-4;
+const NEAR: f64 = 0.05 * SETTLED;
 /// Mean square of the changes of ln(viscosity) below which they tell nothing of the answer.
 const UNMOVED: f64 = 1e-6;
 /// Mean change of ln(viscosity), weighted by dissipation, that ends the passes.

@@ -2,9 +2,9 @@
 
 use physics::Viscosity;
 
-/// Lumens this wide (cells) are as wide as any.
+/// Lumens this wide (cells) are as wide as any: what the law of the liquid changes falls with the width, what it costs grows.
 const WIDEST: f64 = 60.0;
-/// Least part of a Newtonian liquid's distance, so that friction stays finite.
+/// Least part of a Newtonian liquid's distance, so that friction stays finite where that next to vanishes, beside low rows.
 const LEAST: f64 = 0.02;
 
 /// Distance (cells) over which the difference between a face velocity and its wall acts for a liquid whose
@@ -36,7 +36,8 @@ pub(super) fn thinning_distance(distance: f64, width: f64, first: f64, p: f64) -
 
 /// d ln(rate)/d ln(stress) of a law at a rate, 1/s.
 pub(super) fn steepness(law: &Viscosity, rate: f64) -> f64 {
-    /// Ratio of the rates of the difference, and the largest power: a yield stress has any.
+    /// Ratio of the rates of the difference: nearer ones round, farther ones miss the bend of a law. And the largest power: a
+    /// yield stress has any.
     const APART: f64 = 1.01;
     const MOST: f64 = 100.0;
     let index = 1.0 + (law.at(APART * rate) / law.at(rate)).ln() / APART.ln();

@@ -7,7 +7,7 @@ use crate::liquid::TRACE;
 
 /// Volume fraction from which on a pore is full and has a pressure of its own, which fills what it lacks within the step. With
 /// 0.8 the force of a piston in a slit of three cells scatters by 4.0 % instead of 1.6; with 0.98 what a front's shape
-/// adds in a duct of six is off by 0.035 widths of flow instead of 0.017 (slit and duct of docs/methods.md 3.14).
+/// adds in a duct of six is off by 0.035 widths of flow instead of 0.017 (piston into a slit and a square lumen, docs/methods.md 3.14).
 pub(crate) const FULL: f64 = 0.9;
 
 /// Numbers of the unknowns of a step: of velocities along rows of cells, one component after the other, so that neighbours
@@ -24,9 +24,9 @@ pub(crate) struct Unknowns {
 }
 
 impl Unknowns {
-    /// Those of pores filled to `fractions`, where those that are `torn`, if any can be, have no pressure.
+    /// Those of pores filled to `fractions`, where those that are `torn` have no pressure.
     pub(crate) fn new(mesh: &Mesh, fractions: &[f64], torn: &[bool]) -> Self {
-        let full = |pore: usize| fractions[pore] >= FULL && torn.get(pore) != Some(&true);
+        let full = |pore: usize| fractions[pore] >= FULL && !torn[pore];
         let mut unknowns = Self {
             faces: Vec::new(),
             pores: Vec::new(),

@@ -2,30 +2,30 @@
 
 use crate::system::PASSES;
 
-/// Relative residual of the solution, far below what a step moves.
+/// Relative residual of the solution, so far below what a step moves that a run loses no water by it; a smaller one is rounding.
 const TOLERANCE: f64 = 1e-10;
-/// Iterations to reach it at most.
+/// Iterations to reach it at most, so that what has no balance ends.
 const MAX_ITERATIONS: usize = 2000;
 /// Part of the limit by which X may fall short of it: above what the solution is off by.
-const HAIR: f64 = 1e-9;
+const HAIR: f64 = 10.0 * TOLERANCE;
 
 /// A pore with liquid.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
-    pub(super) pore: u32,
+pub(crate) struct Node {
+    pub(crate) pore: u32,
     /// Volume of the solids, cells.
-    pub(super) solids: f64,
+    pub(crate) solids: f64,
     /// Water over solids.
-    pub(super) ratio: f64,
+    pub(crate) ratio: f64,
     /// What its walls ask for, cells.
-    pub(super) asked: f64,
+    pub(crate) asked: f64,
     /// Nodes beside it, with what a difference of X passes on.
-    pub(super) beside: Vec<(u32, f64)>,
+    pub(crate) beside: Vec<(u32, f64)>,
 }
 
 impl Node {
     /// Water that comes from the nodes beside node `own`.
-    pub(super) fn inflow(&self, ratio: &[f64], own: usize) -> f64 {
+    pub(crate) fn inflow(&self, ratio: &[f64], own: usize) -> f64 {
         let each = self.beside.iter();
         each.map(|&(n, k)| k * (ratio[n as usize] - ratio[own]))
             .sum()
@@ -38,7 +38,7 @@ impl Node {
 }
 
 /// X of each node, and whether it is held at the least that walls leave; `None` where no balance was found.
-pub(super) fn solve(nodes: &[Node], least: f64) -> Option<(Vec<f64>, Vec<bool>)> {
+pub(crate) fn solve(nodes: &[Node], least: f64) -> Option<(Vec<f64>, Vec<bool>)> {
     let mut ratio: Vec<f64> = nodes.iter().map(|node| node.ratio).collect();
     let mut held: Vec<bool> = (nodes.iter())
         .map(|node| node.asked > 0.0 && node.ratio <= least * (1.0 + HAIR))

@@ -1,95 +1,38 @@
-//! Air that liquid closes off: Boyle's law, pockets that part and meet, a bond with air.
+//! Air that liquid closes off: pockets that part and meet, a clamp on air. Boyle's law: tests/verification.
 
 use implicit::Implicit;
 use physics::{Motion, Press, PressStage, Scene, Scheme, Stop, VoxelBlock};
 
 use crate::plain;
-use crate::runs::{ETA, H, advance, clamp, forged, stage, until, with};
+use crate::runs::{H, advance, block, clamp, forged, press, stage, with};
 
 /// Absolute pressure outside, Pa.
 const OUTSIDE: f64 = 1e5;
 
-fn begun(scene: &Scene, leak_time: f64) -> Implicit {
-    with(scene, |settings| {
-        (settings.air_pressure, settings.air_leak_time) = (Some(OUTSIDE), leak_time);
-    })
+fn begun(scene: &Scene) -> Implicit {
+    with(scene, |settings| settings.air_pressure = Some(OUTSIDE))
 }
 
-/// A slit of `n` cells that is closed below, four widths of air in it under one and a half of liquid, which a piston presses down
-/// at `speed` (m/s).
-fn slit(n: usize, speed: f64) -> Scene {
-    let h = H / n as f64;
-    let m = |cells: usize| cells as f64 * h;
-    let block = |low: [usize; 2], high: [usize; 2]| {
-        VoxelBlock::solid_box([m(low[0]), m(low[1]), 0.0], [m(high[0]), m(high[1]), h])
-    };
-    let [floor, surface, top] = [2, 4 * n + 2, 4 * n + 2 + 3 * n / 2];
-    let cells = [n / 2 + 2, top + 2, 1];
-    let mut scene = plain::scene(h, cells);
-    let liquid = [n, 3 * n, 1];
-    scene.points = plain::fill([0.0, m(surface), 0.0], [0.5 * h, 0.5 * h, h], liquid);
-    let walls = vec![
-        block([0, 0], [n / 2 + 2, floor]),
-        block([n / 2, floor], [n / 2 + 2, 99 * n]),
-    ];
-    let piston = vec![block([0, top], [n / 2, 99 * n])];
-    scene.bodies = vec![
-        plain::body("wall", walls, Motion::Fixed),
-        plain::body("piston", piston, Motion::Constant([0.0, -speed, 0.0])),
-    ];
-    (scene.bottom, scene.top) = (Some(0), Some(1));
+/// A slit of six cells that is closed below, four widths of air in it under one and a half of liquid, and a piston.
+fn slit(piston: Motion) -> Scene {
+    let h = H / 6.0;
+    let mut scene = plain::scene(h, [5, 37, 1]);
+    scene.points = plain::fill([0.0, 26.0 * h, 0.0], [0.5 * h, 0.5 * h, h], [6, 18, 1]);
+    let walls = [[0.0, 0.0, 5.0, 2.0], [3.0, 0.0, 5.0, 600.0]];
+    let walls = walls.map(|[x, y, to_x, to_y]| block(h, [x, y], [to_x, to_y]));
+    let plunger = vec![block(h, [0.0, 35.0], [3.0, 600.0])];
+    press(
+        &mut scene,
+        ["wall", "piston"],
+        [walls.into(), plunger],
+        piston,
+    );
     scene
 }
 
 /// Air of all pores by the arrays of a checkpoint, in its unit.
 fn air(scheme: &Implicit) -> f64 {
     scheme.save().f64s("air").unwrap().iter().sum()
-}
-
-/// Presses the air to a quarter; largest and mean error of its pressure, over what it is then by Boyle, and the last report.
-fn pressed(n: usize, speed: f64, leak_time: f64) -> [f64; 3] {
-    let scene = slit(n, speed);
-    let part = scene.grid.area_m2() / (0.5 * H * H / n as f64);
-    let mut scheme = begun(&scene, leak_time);
-    let first = air(&scheme);
-    let (mut errors, mut last) = (Vec::new(), 0.0);
-    until(&mut scheme, 3.0 * H / speed, |report, time| {
-        let boyle = OUTSIDE * (4.0 / (4.0 - time * speed / H) - 1.0);
-        // Developed flow behind the front.
-        let viscous = 12.0 * ETA * speed * 1.5 / H;
-        last = report.pressure_top * part - viscous;
-        errors.push((last - boyle) / (boyle + OUTSIDE));
-    });
-    let worst = errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    let kept = air(&scheme) / first - 1.0;
-    println!(
-        "{n} cells, {speed} m/s, leak {leak_time} s: absolute pressure {:+.2} % in the mean, {:.2} % at worst, in {} steps, air {kept:+.1e}, {:?}",
-        100.0 * mean,
-        100.0 * worst,
-        errors.len(),
-        scheme.counts()
-    );
-    [worst, kept, last]
-}
-
-#[test]
-fn air_under_a_piston_has_the_pressure_that_boyle_says() {
-    for (n, most) in [(6, 0.03), (12, 0.02)] {
-        let [worst, kept, _] = pressed(n, 1e-3, f64::INFINITY);
-        assert!(worst < most && kept.abs() < 1e-12);
-    }
-}
-
-/// Far slower than it leaks, air has an excess of p_0 t_leak dV/dt / V.
-#[test]
-fn air_that_leaks_gives_way() {
-    let (speed, leak) = (1e-3, 1e-3);
-    let [_, _, last] = pressed(6, speed, leak);
-    let rate = leak * speed / H;
-    let exact = OUTSIDE * rate / (1.0 - rate);
-    println!("leaking: {last:.0} Pa of {exact:.0}");
-    assert!((last / exact - 1.0).abs() < 0.1);
 }
 
 /// Liquid that falls through air in a closed box parts and joins pockets; their air stays, also over a stop.
@@ -103,14 +46,14 @@ fn pockets_that_part_and_meet_keep_their_air() {
     scene.bodies = vec![plain::body("posts", posts.to_vec(), Motion::Fixed)];
     scene.points = plain::fill([0.0, 16.0 * h, 0.0], [0.5 * h, 0.5 * h, h], [24, 12, 1]);
     scene.gravity[1] = -1e6;
-    let mut whole = begun(&scene, f64::INFINITY);
+    let mut whole = begun(&scene);
     let first = air(&whole);
     let mut most = 0;
     for _ in 0..40 {
         advance(&mut whole, 1e-3);
         most = most.max(whole.counts()[0].1);
     }
-    let mut resumed = begun(&scene, f64::INFINITY);
+    let mut resumed = begun(&scene);
     resumed.restore(&whole.save()).unwrap();
     for _ in 0..60 {
         advance(&mut whole, 1e-3);
@@ -131,9 +74,8 @@ fn pockets_that_part_and_meet_keep_their_air() {
 
 /// The slit under a clamp that raises the pressure of its air by `rise` (Pa) in `time_s` (s), and then as the `next` stages say.
 fn pressed_slit(rise: f64, time_s: f64, next: &[PressStage]) -> (Scene, f64) {
-    let mut scene = slit(6, 1e-2);
+    let mut scene = slit(Motion::Clamped);
     let part = scene.grid.area_m2() / (0.5 * H * H / 6.0);
-    scene.bodies[1].motion = Motion::Clamped;
     scene.clamp = clamp(1e-2, rise / part);
     scene.stop = Stop::Closed { travel_m: 4.0 * H };
     scene.programme = vec![stage(Press::Ramp, 1e-2, Some(rise / part), time_s)];
@@ -147,7 +89,7 @@ fn air_that_was_pressed_lifts_a_clamp_that_lets_go() {
     for rise in [1.0, 0.06] {
         let release = stage(Press::Release, 1e-2, Some(0.0), 10.0);
         let (scene, _) = pressed_slit(rise * OUTSIDE, 10.0, &[release]);
-        let mut scheme = begun(&scene, f64::INFINITY);
+        let mut scheme = begun(&scene);
         let (mut travel, mut most) = (0.0, 0.0_f64);
         while !scheme.programme().unwrap().is_over() {
             travel = advance(&mut scheme, 1.0).travel_m / H;
@@ -165,7 +107,7 @@ fn air_that_was_pressed_lifts_a_clamp_that_lets_go() {
 fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
     let (rise, stage_s) = (1e5, 10.0);
     let (scene, part) = pressed_slit(rise, stage_s, &[]);
-    let mut scheme = begun(&scene, f64::INFINITY);
+    let mut scheme = begun(&scene);
     let (mut travel, mut moved, mut times, mut off) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0_f64);
     let mut before = 0.0;
     for step in 0..20 {
@@ -190,7 +132,7 @@ fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
 /// A run is objected to where the air is astray in more than a tenth of its steps.
 #[test]
 fn air_that_is_often_astray_is_objected_to() {
-    let mut scheme = begun(&slit(6, 1e-3), f64::INFINITY);
+    let mut scheme = begun(&slit(Motion::Constant([0.0, -1e-3, 0.0])));
     for _ in 0..10 {
         advance(&mut scheme, 1e-4);
     }

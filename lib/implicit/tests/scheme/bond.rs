@@ -2,12 +2,13 @@
 
 use implicit::Implicit;
 use physics::{
-    Boundary, LiquidState, Motion, Press, PressRun, Scene, Scheme, StepLimit, Stop, VoxelBlock,
-    WallLaw, Water, WaterLaw, Wetting,
+    Boundary, LiquidState, Motion, Press, PressRun, Scene, Scheme, StepLimit, StepReport, Stop,
+    VoxelBlock, WallLaw, Wetting,
 };
 
 use crate::plain;
 use crate::runs::{self, advance, at_rest, clamp, plainly, solved, stage, with};
+use crate::water::losing;
 
 /// Steps in which an adhesive that dries is pressed: before lumens of one voxel a cell are full and the clamp waits for its
 /// water to go.
@@ -74,34 +75,29 @@ const CLOSED: f64 = 1e-3;
 /// The same with an adhesive that loses water to the wood.
 fn drying(k: usize, boundary: Boundary, place: impl Fn(usize, usize) -> [usize; 2]) -> Scene {
     let mut scene = scene(k, boundary, place);
-    let law = WaterLaw {
-        uptake: 0.02,
-        solids: 0.45,
-        capacity: Some(0.5e-6),
-        limit: Some(0.6),
-        diffusivity: 1e-6,
-        factor: vec![(0.45, 1.0), (0.7, 10.0)],
-        walls: Vec::new(),
-    };
-    scene.liquid.water = Some(Water::new(law, scene.liquid.density).unwrap());
+    let water = losing(&scene, 0.02, |law| {
+        (law.capacity, law.diffusivity) = (Some(0.5e-6), 1e-6);
+        law.factor[1].1 = 10.0;
+    });
+    scene.liquid.water = Some(water);
     scene
 }
 
-/// Presses a bond for so many steps or to its end: pressures of the steps, and the liquid.
-fn press(scheme: &mut Implicit, steps: usize) -> (Vec<f64>, LiquidState) {
+/// Presses a bond for so many steps or to its end: reports of the steps, and the liquid.
+fn press(scheme: &mut Implicit, steps: usize) -> (Vec<StepReport>, LiquidState) {
     let travel = VOXEL * SLAB as f64;
-    let mut pressures = Vec::new();
+    let mut reports = Vec::new();
     let mut left = travel + scheme.displacements()[1][1];
-    while left > CLOSED * travel && pressures.len() < steps {
+    while left > CLOSED * travel && reports.len() < steps {
         let limit = StepLimit {
             time_s: 1e-3,
             travel_m: left,
         };
         let report = scheme.advance(limit).unwrap();
         left = travel - report.travel_m;
-        pressures.push(report.pressure_top);
+        reports.push(report);
     }
-    (pressures, scheme.liquid())
+    (reports, scheme.liquid())
 }
 
 /// Root of the mean square of the liquid's distance from the bond, um.
@@ -146,9 +142,9 @@ fn however_it_lies(
 ) {
     let found = |boundary, place: Place| {
         let mut scheme = solved(&scene(k, boundary, place), tolerance);
-        let (pressures, liquid) = press(&mut scheme, steps);
+        let (reports, liquid) = press(&mut scheme, steps);
         let solids = scheme.diagnostics().water.map_or(1.0, |water| water.solids);
-        (pressures, penetration(&liquid), solids)
+        (reports, penetration(&liquid), solids)
     };
     let (mirror, turn) = (Boundary::Symmetry, Boundary::Periodic);
     let plain = found(mirror, &|x, z| [x, z]);
@@ -176,7 +172,7 @@ fn however_it_lies(
             &periodic
         };
         let other = found(boundary, place);
-        let last = |pressures: &[f64]| pressures[pressures.len() - 1];
+        let last = |reports: &[StepReport]| reports[reports.len() - 1].pressure_top;
         let depth = other.1 / as_it_lies.1 - 1.0;
         let pressure = last(&other.0) / last(&as_it_lies.0) - 1.0;
         let solids = other.2 / as_it_lies.2 - 1.0;
@@ -187,35 +183,18 @@ fn however_it_lies(
 }
 
 #[test]
-fn both_bodies_bear_the_same() {
-    for k in [1, 2] {
-        let mut scheme = solved(&scene(k, Boundary::Symmetry, |x, z| [x, z]), 1e-5);
-        let limit = StepLimit {
-            time_s: 1e-3,
-            travel_m: VOXEL * SLAB as f64,
-        };
-        for step in 1..=4 {
-            let report = scheme.advance(limit).unwrap();
-            let ratio = report.pressure_bottom / report.pressure_top - 1.0;
-            println!(
-                "k {k}: {:.3} MPa, other side {ratio:+.1e}",
-                1e-6 * report.pressure_top
-            );
-            // In the first, from rest, inertia counts.
-            assert!(step == 1 || ratio.abs() < 2e-3, "k {k}, step {step}");
-        }
-    }
-}
-
-#[test]
-fn no_liquid_is_made_or_lost() {
+fn both_bodies_bear_the_same_and_no_liquid_is_made_or_lost() {
     for k in [1, 2] {
         let scene = scene(k, Boundary::Symmetry, |x, z| [x, z]);
-        let (_, liquid) = press(&mut solved(&scene, 1e-5), usize::MAX);
+        let (reports, liquid) = press(&mut solved(&scene, 1e-5), usize::MAX);
+        // In the first, from rest, inertia counts.
+        let apart = (reports[1..4].iter())
+            .map(|report| (report.pressure_bottom / report.pressure_top - 1.0).abs())
+            .fold(0.0, f64::max);
         let error = at_rest(&scene, &liquid) / scene.liquid_volume() - 1.0;
-        println!("k {k}: volume {error:+.1e}");
+        println!("k {k}: other side {apart:.1e}, volume {error:+.1e}");
         // Points are in single precision.
-        assert!(error.abs() < 1e-6);
+        assert!(apart < 2e-3 && error.abs() < 1e-6);
     }
 }
 
@@ -251,15 +230,15 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
         press(&mut whole, 2);
         let mut resumed = begun();
         resumed.restore(&whole.save()).unwrap();
-        let (pressures, liquid) = press(&mut whole, 60);
+        let (reports, liquid) = press(&mut whole, 60);
         press(&mut resumed, 60);
         println!(
             "k {k}: {} more steps, WP {:.3} um, {:?}",
-            pressures.len(),
+            reports.len(),
             penetration(&liquid),
             whole.counts()
         );
-        assert!(pressures.len() < 60 && whole.save() == resumed.save());
+        assert!(reports.len() < 60 && whole.save() == resumed.save());
     }
 }
 

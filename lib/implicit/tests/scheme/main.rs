@@ -2,18 +2,15 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
+#[path = "../../../physics/tests/plain/mod.rs"]
 mod plain;
 mod runs;
 
 mod air;
 mod bond;
-mod duct;
 mod flows;
 mod menisci;
 mod opens;
 mod refused;
-mod rods;
-mod statics;
 mod tension;
-mod tubes;
 mod water;

@@ -2,8 +2,8 @@
 
 use implicit::{Implicit, Settings};
 use physics::{
-    Array, Boundary, Clamp, LiquidState, Motion, Points, Press, PressStage, Saved, Scene, Scheme,
-    StepLimit, StepReport, VoxelBlock,
+    Array, Clamp, LiquidState, Motion, Press, PressStage, Saved, Scene, Scheme, StepLimit,
+    StepReport, VoxelBlock,
 };
 
 use crate::plain;
@@ -95,38 +95,9 @@ pub fn clamp(closing_speed: f64, max_pressure: f64) -> Option<Clamp> {
     })
 }
 
-/// Adds points to others.
-pub fn append(points: &mut Points, more: Points) {
-    points.position.extend(more.position);
-    points.velocity.extend(more.velocity);
-    points.volume.extend(more.volume);
-}
-
-/// Fixed walls, and liquid that a pull (m/s2) along x drives round periodic sides.
-pub fn driven(mut scene: Scene, walls: Vec<VoxelBlock>, pull: f64) -> Scene {
-    scene.bodies = vec![plain::body("wall", walls, Motion::Fixed)];
-    scene.boundary[0] = Boundary::Periodic;
-    scene.gravity = [pull, 0.0, 0.0];
-    scene
-}
-
-/// Mean velocity of liquid that weight drives along x, by the power that the weight gives off: points sample the profile.
-pub fn mean_velocity(scene: &Scene, scheme: &Implicit) -> f64 {
-    let found = scheme.diagnostics();
-    found.viscous_power / (scene.liquid.density * scene.gravity[0] * found.volume)
-}
-
 /// Volume of the liquid without its pressure.
 pub fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
     (liquid.volume.iter().zip(&liquid.pressure))
         .map(|(&v, &p)| f64::from(v) / (1.0 + scene.liquid.tait.volume_change(f64::from(p))))
         .sum()
-}
-
-/// Mean and standard deviation.
-pub fn spread(values: &[f64]) -> [f64; 2] {
-    let mean =
-        |of: &dyn Fn(f64) -> f64| values.iter().map(|&v| of(v)).sum::<f64>() / values.len() as f64;
-    let middle = mean(&|v| v);
-    [middle, mean(&|v| (v - middle).powi(2)).sqrt()]
 }

@@ -3,16 +3,18 @@
 
 use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
 use physics::{
-    Boundary, Clamp, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene,
-    Scheme, ShearRate, StepLimit, StepReport, Stop, Table, Tait, Viscosity, VoxelBlock, WallLaw,
+    Boundary, Clamp, Dimensions, Motion, RigidBody, Scene, Scheme, ShearRate, StepLimit, Table,
+    Viscosity, VoxelBlock, WallLaw,
 };
+
+#[path = "../../../physics/tests/plain/mod.rs"]
+mod plain;
 
 /// The paper's cell, m.
 pub const CELL: f64 = 2.9e-6;
-/// PF: density (kg/m3), viscosity (Pa s), bulk modulus (Pa).
+/// PF: density (kg/m3), viscosity (Pa s).
 pub const DENSITY: f64 = 1200.0;
 pub const VISCOSITY: f64 = 1.3;
-pub const MODULUS: f64 = 1e9;
 
 /// The paper's Table 1: PVA-PF.
 pub fn pva_pf() -> Viscosity {
@@ -42,40 +44,10 @@ pub fn combined(updates: &[VelocityUpdate]) -> Vec<(ShapeFunction, VelocityUpdat
 
 /// An empty scene of `cells`; one cell along z means plane strain.
 pub fn scene(cells: [usize; 3], boundary: [Boundary; 3]) -> Scene {
-    Scene {
-        dimensions: if cells[2] == 1 {
-            Dimensions::Two
-        } else {
-            Dimensions::Three
-        },
-        grid: GridBox {
-            cell_m: CELL,
-            min_m: [0.0; 3],
-            cells,
-        },
-        boundary,
-        liquid: Liquid {
-            density: DENSITY,
-            tait: Tait {
-                bulk_modulus: MODULUS,
-            },
-            viscosity: Viscosity::Newtonian(Newtonian(VISCOSITY)),
-            shear_rate: ShearRate::Paper,
-            cure: None,
-            water: None,
-            cavitation_pressure: None,
-            wetting: None,
-        },
-        points: Points::default(),
-        bodies: Vec::new(),
-        wall: WallLaw::Stick,
-        gravity: [0.0; 3],
-        clamp: None,
-        programme: Vec::new(),
-        stop: Stop::Time(1.0),
-        bottom: None,
-        top: None,
-    }
+    let mut scene = plain::scene(CELL, cells);
+    scene.boundary = boundary;
+    scene.liquid.shear_rate = ShearRate::Paper;
+    scene
 }
 
 /// Fills the box from `low` to `high` (cells) with two points per cell and axis, with the
@@ -103,11 +75,7 @@ pub fn pour(scene: &mut Scene, low: [f64; 3], high: [f64; 3]) {
 
 /// A body of one block.
 pub fn body(name: &str, block: VoxelBlock, motion: Motion) -> RigidBody {
-    RigidBody {
-        name: name.into(),
-        blocks: vec![block],
-        motion,
-    }
+    plain::body(name, vec![block], motion)
 }
 
 /// A box from `low` to `high` in cells.
@@ -175,18 +143,4 @@ pub fn advance(run: &mut Explicit, steps: usize) {
 pub fn on_threads<T: Send>(threads: usize, of: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build().unwrap().install(of)
-}
-
-/// Runs to `end` (s), handing every step to `see`.
-pub fn run_to(run: &mut Explicit, end: f64, mut see: impl FnMut(&Explicit, &StepReport, f64)) {
-    let mut time = 0.0;
-    while end - time > 1e-6 * end {
-        let limit = StepLimit {
-            time_s: end - time,
-            ..FREE
-        };
-        let report = run.advance(limit).expect("a sound run");
-        time += report.dt_s;
-        see(run, &report, time);
-    }
 }

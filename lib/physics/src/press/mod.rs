@@ -4,7 +4,7 @@ mod run;
 
 use crate::Choice;
 
-pub use run::{PressRun, PressStep};
+pub use run::{CONTROLLED, PressRun, PressStep};
 
 /// What a stage of a press programme does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,8 +16,8 @@ pub struct PressStep {
     pub pressure: f64,
 }
 
-/// Part of a pressure below it at which it counts as reached: what control leaves.
-const REACHED: f64 = 5e-3;
+/// Part of a pressure that control leaves, half of the 1 % aimed at: so far below it counts as reached, so far above a clamp is held.
+pub const CONTROLLED: f64 = 5e-3;
 /// Part of a way or a time that rounding may leave of it.
 const ROUNDING: f64 = 1e-9;
 /// Steps of a ramp, or until a clamp that stands is found slower than asked for, over all of the time.
@@ -103,7 +103,7 @@ impl PressRun {
 
     /// Whether the stage begins under less than the pressure that was reached, so that the clamp gives way at once.
     pub fn gives_way(&self) -> bool {
-        self.elapsed_s == 0.0 && self.set_pressure(0.0) < (1.0 - REACHED) * self.from
+        self.elapsed_s == 0.0 && self.set_pressure(0.0) < (1.0 - CONTROLLED) * self.from
     }
 
     /// A limit of a step within the stage, for a clamp that has travelled `travel_m` (m).
@@ -150,7 +150,7 @@ impl PressRun {
     fn reason(&self, step: &PressStep) -> Option<Reason> {
         let stage = self.stage();
         let approach = stage.kind == Press::Approach;
-        let reached = |p: f64| step.pressure >= p * (1.0 - REACHED);
+        let reached = |p: f64| step.pressure >= p * (1.0 - CONTROLLED);
         let gone = |way: f64| step.travel_m >= way - ROUNDING * self.room_m;
         if approach && stage.pressure.is_some_and(reached) {
             Some(Reason::Pressure)

@@ -1,9 +1,10 @@
 //! Plane Poiseuille flow between walls at any offset, driven by a body force along a
 //! periodic channel.
 
-use super::{LUMEN, Scene, mean_against, pressing};
+use super::{LUMEN, Measured, Scene, mean_against, pressing};
 use crate::case_text::{Body, CaseText, PF, STICK, partial_slip};
 use crate::closed_forms::channel;
+use crate::numbers::worst;
 
 /// Body force per mass, m/s2: a mean velocity near 0.02 m/s.
 const G: f64 = 2.3e5;
@@ -40,6 +41,13 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
     Scene::new(name, "plane Poiseuille", case, move |run| {
         let slip = slip.unwrap_or(0.0) * LUMEN;
         let exact = |y: f64| channel(y, LUMEN, slip, G, PF[0], PF[2]);
-        Ok(vec![mean_against(run, low, exact)?])
+        let points = run.points()?;
+        let fastest = exact(0.5 * LUMEN);
+        let off = points.iter().map(|p| p.velocity[0] - exact(p.at[1] - low));
+        let worst = worst(off.map(|off| off / fastest)).unwrap_or(f64::NAN);
+        Ok(vec![
+            mean_against(run, low, exact)?,
+            Measured::absolute("a point over the fastest, worst", worst),
+        ])
     })
 }

@@ -1,4 +1,4 @@
-//! Scenes of PF between mirrors, with walls it sticks to: what a test does not say otherwise.
+//! Scenes of PF between mirrors, with walls it sticks to, for tests of both schemes: what a test does not say otherwise.
 
 use physics::{
     Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, ShearRate,

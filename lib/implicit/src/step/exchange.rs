@@ -8,54 +8,37 @@
 
 use physics::Water;
 
-use super::solve::{Node, solve};
-use super::walls::Walls;
-use crate::geometry::Mesh;
+use super::Implicit;
+use super::water::Wet;
 use crate::liquid::TRACE;
-
-/// What holds for a step.
-pub(crate) struct Medium<'a> {
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) walls: &'a Walls,
-    pub(crate) water: &'a Water,
-    /// Volume fraction of each pore in the middle of the step, at most 1.
-    pub(crate) fractions: &'a [f64],
-    /// Length of the step times diffusivity over the square of a cell.
-    pub(crate) diffusion: f64,
-    /// Length of the step times uptake, and what walls hold per area, cells.
-    pub(crate) uptake: f64,
-    pub(crate) capacity: f64,
-}
+use crate::water::{Node, Walls, solve};
 
 /// What a step moves.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Exchange {
+pub(super) struct Exchange {
     /// Water that each pore gains, and that its walls take, cells.
-    pub(crate) gained: Vec<f64>,
-    pub(crate) taken: Vec<f64>,
+    pub(super) gained: Vec<f64>,
+    pub(super) taken: Vec<f64>,
     /// Factor of the viscosity of each pore in the middle of the step.
-    pub(crate) factor: Vec<f64>,
+    pub(super) factor: Vec<f64>,
     /// Mean of the change of ln(viscosity), weighted by the water that pores give off or take up.
-    pub(crate) change: f64,
+    pub(super) change: f64,
     /// Mean of 1/factor over the liquid at the end of the step.
-    pub(crate) fluidity: f64,
+    pub(super) fluidity: f64,
 }
 
 impl Exchange {
-    /// That of liquid `volumes` with so much `water` in them, whose walls have `soaked` up so much; `None` where no
-    /// balance of the water was found.
-    pub(crate) fn new(
-        medium: &Medium,
-        volumes: &[f64],
-        water: &[f64],
-        soaked: &[f64],
-    ) -> Option<Self> {
-        let nodes = medium.nodes(volumes, water, soaked);
-        let (ratio, at_limit) = solve(&nodes, medium.water.least())?;
+    /// That of `nodes` among so many `pores` that come to a `ratio` of water to solids, some of them held `at_limit`.
+    fn new(
+        nodes: &[Node],
+        pores: usize,
+        water: &Water,
+        (ratio, at_limit): (Vec<f64>, Vec<bool>),
+    ) -> Self {
         let mut found = Self {
-            gained: vec![0.0; volumes.len()],
-            taken: vec![0.0; volumes.len()],
-            factor: vec![1.0; volumes.len()],
+            gained: vec![0.0; pores],
+            taken: vec![0.0; pores],
+            factor: vec![1.0; pores],
             ..Self::default()
         };
         let (mut moved, mut changed, mut fluid, mut volume) = (0.0, 0.0, 0.0, 0.0);
@@ -68,7 +51,7 @@ impl Exchange {
                 false => flow - node.asked,
             };
             (found.gained[pore], found.taken[pore]) = (gained, flow - gained);
-            let [begin, end] = [node.ratio, ratio[n]].map(|ratio| medium.water.factor(ratio));
+            let [begin, end] = [node.ratio, ratio[n]].map(|ratio| water.factor(ratio));
             found.factor[pore] = (begin * end).sqrt();
             moved += gained.abs();
             changed += gained.abs() * (end / begin).ln().abs();
@@ -77,29 +60,53 @@ impl Exchange {
         }
         found.change = if moved > 0.0 { changed / moved } else { 0.0 };
         found.fluidity = if volume > 0.0 { fluid / volume } else { 1.0 };
-        Some(found)
+        found
     }
 }
 
-impl Medium<'_> {
+impl Implicit {
+    /// What a step of `dt` (s) moves of the water, in pores filled to `fractions` in its middle.
+    pub(super) fn exchange(&self, dt: f64, fractions: &[f64]) -> Result<Option<Exchange>, String> {
+        let (Some(water), Some(walls), Some(wet)) =
+            (&self.setup.liquid.water, &self.walls, &self.state.wet)
+        else {
+            return Ok(None);
+        };
+        let nodes = self.nodes(dt, fractions, (water, walls, wet));
+        let solved = solve(&nodes, water.least()).ok_or(
+            "no balance of the water was found: a smaller uptake, a larger diffusivity or a flatter \
+             viscosity_by_solids is needed",
+        )?;
+        let pores = self.mesh.pores.len();
+        Ok(Some(Exchange::new(&nodes, pores, water, solved)))
+    }
+
     /// The pores with liquid and what passes between them.
-    fn nodes(&self, volumes: &[f64], water: &[f64], soaked: &[f64]) -> Vec<Node> {
-        let mesh = self.mesh;
+    fn nodes(
+        &self,
+        dt: f64,
+        fractions: &[f64],
+        (water, walls, wet): (&Water, &Walls, &Wet),
+    ) -> Vec<Node> {
+        let (mesh, h) = (&self.mesh, self.setup.units.cell_m);
+        // What walls hold per area, and take of it, cells; and what differences of X pass on between cells.
+        let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
+        let (uptake, diffusion) = (dt * water.uptake() / h, dt * water.diffusivity() / (h * h));
         let mut number = vec![None; mesh.pores.len()];
         let mut nodes = Vec::new();
         for pore in 0..mesh.pores.len() {
-            let solids = volumes[pore] - water[pore];
+            let solids = self.state.volumes[pore] - wet.water[pore];
             if solids < TRACE {
                 continue;
             }
             number[pore] = Some(nodes.len() as u32);
-            let area = self.walls.area(mesh, pore);
-            let room = (self.capacity * area - soaked[pore]).max(0.0);
+            let area = walls.area(mesh, pore);
+            let room = (capacity * area - wet.soaked[pore]).max(0.0);
             nodes.push(Node {
                 pore: pore as u32,
                 solids,
-                ratio: water[pore] / solids,
-                asked: self.fractions[pore] * room.min(self.uptake * area),
+                ratio: wet.water[pore] / solids,
+                asked: fractions[pore] * room.min(uptake * area),
                 beside: Vec::new(),
             });
         }
@@ -108,7 +115,7 @@ impl Medium<'_> {
             let [Some(low), Some(high)] = ends.map(|pore| number[pore]) else {
                 continue;
             };
-            let wet = self.fractions[ends[0]].min(self.fractions[ends[1]]);
+            let filled = fractions[ends[0]].min(fractions[ends[1]]);
             let axis = usize::from(face.axis);
             let area = mesh.area(index);
             let length = |pore: usize, up: bool| {
@@ -116,7 +123,7 @@ impl Medium<'_> {
             };
             let distance = 0.5 * (length(ends[0], true) + length(ends[1], false));
             let dry = |n: u32| 1.0 / (1.0 + nodes[n as usize].ratio);
-            let k = self.diffusion * wet * area / distance * 0.5 * (dry(low) + dry(high));
+            let k = diffusion * filled * area / distance * 0.5 * (dry(low) + dry(high));
             if k > 0.0 {
                 nodes[low as usize].beside.push((high, k));
                 nodes[high as usize].beside.push((low, k));

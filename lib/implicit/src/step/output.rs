@@ -1,0 +1,82 @@
+//! The liquid as points, as states and metrics take it: one in each voxel of a pore with liquid.
+
+use physics::LiquidState;
+use rayon::prelude::*;
+
+use super::Implicit;
+use crate::liquid::{Profile, TRACE};
+use crate::system::FlowField;
+
+impl Implicit {
+    /// The points of the liquid.
+    pub(super) fn points(&self) -> LiquidState {
+        let (setup, mesh, pressure) = (&self.setup, &self.mesh, &self.state.flow.pressure);
+        let (rates, place) = (self.rates(), setup.place);
+        let mut state = LiquidState::default();
+        let mut shown = Vec::new();
+        for pore in 0..mesh.pores.len() {
+            let n = f64::from(mesh.pores[pore].voxels.count_ones());
+            let volume = self.state.volumes[pore] * self.compressed(pore) / n;
+            if volume < TRACE {
+                continue;
+            }
+            shown.push(pore);
+            let cell = mesh.cell(pore);
+            let (at, edges) = (mesh.place(cell), mesh.edges(cell));
+            let low = [
+                at[0] as f64 - mesh.beyond[0] as f64,
+                mesh.rows().low(mesh.row(cell)),
+                at[2] as f64 - mesh.beyond[2] as f64,
+            ];
+            for voxel in mesh.voxels(pore) {
+                state.position.push(std::array::from_fn(|a| {
+                    let cells = low[a] + edges[a] * (voxel[a] as f64 + 0.5) / mesh.k as f64;
+                    (place.origin_m[a] + place.cell_m * cells) as f32
+                }));
+                state.volume.push((volume * place.cell_m.powi(3)) as f32);
+                let pressure = pressure[pore] * setup.units.viscosity;
+                state.pressure.push(pressure as f32);
+                state.shear_rate.push(rates[pore] as f32);
+                (state.solids).extend(self.solids_of(pore).map(|solids| solids as f32));
+            }
+        }
+        let profile = self.profile();
+        let velocities = |&pore: &usize| {
+            let velocities = profile.of_pore(pore).into_iter();
+            velocities.map(|velocity| velocity.map(|v| (v * place.cell_m) as f32))
+        };
+        state.velocity = shown.par_iter().flat_map_iter(velocities).collect();
+        state
+    }
+
+    /// Shear rates of pores in the gap of now: the last step's are of that in its middle.
+    fn rates(&self) -> Vec<f64> {
+        let mut links = self.links.clone();
+        let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
+            .map(|(pore, volume)| volume / self.mesh.volume(pore))
+            .collect();
+        links.measure(&self.setup.channels(&self.mesh), &fractions);
+        let field = FlowField {
+            links: &links,
+            ..self.field(&self.state.flow)
+        };
+        field.pore_rates(self.setup.liquid.shear_rate).0
+    }
+
+    /// Volume of the liquid of a pore over that at no pressure, Tait's J.
+    pub(super) fn compressed(&self, pore: usize) -> f64 {
+        let pressure = self.state.flow.pressure[pore] * self.setup.units.viscosity;
+        1.0 + self.setup.liquid.tait.volume_change(pressure)
+    }
+
+    /// The flow within pores.
+    pub(super) fn profile(&self) -> Profile<'_> {
+        Profile {
+            lattice: &self.setup.lattice,
+            mesh: &self.mesh,
+            velocity: &self.state.flow.velocity,
+            speed: self.state.flow.speed,
+            influence_length: self.setup.influence_length,
+        }
+    }
+}
