@@ -128,7 +128,7 @@ fn the_first_table_comes_before_the_tools_that_it_is_not_made_by() {
     let bench = clone();
     std::fs::remove_dir_all(bench.path("target")).unwrap();
     let planned = bench.done("env -u MAKEFLAGS make -n CARGO=cargo ERROR=no all");
-    let order = ["-p mpm-run", "-o - >/dev/null", "--workspace", "--title"];
+    let order = ["-p mpm-run", "-o - >/dev/null", "--workspace", "--state"];
     let places = order.map(|what| planned.find(what).expect(what));
     assert!(places.is_sorted(), "{places:?}: {planned}");
 }
