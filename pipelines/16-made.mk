@@ -12,4 +12,9 @@ OF = $(call q,$@) $(call q,$(1)) $(call q,$(OUTPUTS)) $(filter-out FORCE,$^) $(R
 STALE = $(firstword $(findstring B,$(LETTERS)) $(if $(DRY),$(filter $(MADE),$^)) $(shell pipelines/made.sh stale $(OF)))
 made = $(foreach why,$(STALE),$(eval MADE += $@)$(if $(DRY),$(if $(filter kept,$(why)),# not sound: )$(1),@pipelines/made.sh make $(OF)))
 
+# Tools that are not built yet are taken for made, where make only says what it would do.
+ifneq ($(and $(BUILT),$(DRY)),)
+$(BINARIES) $(BIN)/study:
+endif
+
 export BIN V YES RUN_THREADS AT_ONCE

@@ -95,11 +95,11 @@ fn what_is_no_finer_run_of_the_same_bond_is_refused() {
     for (files, sentence) in [
         (
             format!("{coarse} --finer {coarse}"),
-            "must be 2 times smaller",
+            "at least 2 times smaller",
         ),
         (
             format!("{fine} --finer {coarse}"),
-            "must be 2 times smaller",
+            "at least 2 times smaller",
         ),
         (
             format!("{coarse} --finer implicit-finer/snapshots/0000.mpts"),

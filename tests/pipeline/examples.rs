@@ -42,22 +42,3 @@ fn a_specimen_is_pressed() {
         &["run/final.mpts", "shear.csv", "pressure.svg", "final.png"],
     );
 }
-
-#[test]
-fn viscosities_are_swept_and_a_second_sweep_only_adds() {
-    let bench = Workbench::with_bond();
-    let sweep = |values: &str| {
-        script(
-            &bench,
-            "sweep-viscosity.sh",
-            &format!("bond.mpts case.toml out {values}"),
-        )
-    };
-    sweep("'200 cP' '400 cP'");
-    let state = bench.read("out/200cP/final.mpts");
-    let table = sweep("'200 cP' '400 cP' '800 cP'");
-    // A header and three sides of three runs.
-    assert_eq!(table.lines().count(), 10, "{table}");
-    assert!(table.starts_with("viscosity,file,side"), "{table}");
-    assert!(bench.read("out/200cP/final.mpts") == state, "run again");
-}

@@ -99,18 +99,29 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
         let case = "[grid]\ncell = \"2 um\"\n";
         bench.write(&format!("{folder}/resolved.toml"), case);
     }
-    let summary = r#"{"end": "failed", "verdict": {"sound": false, "reasons": ["step 7: too <fast>"]}, "steps": 6}"#;
+    let summary = r#"{"end": "failed", "verdict": {"sound": false, "reasons": ["step 7: too <fast>"]}, "steps": 6,
+        "expected_error": {"cells_per_lumen": 6.0, "measured_with_cells": 6.0, "errors": []},
+        "lumens": [{"what": "lumens at the bond", "why": "3.5 cells"}],
+        "left_out": [{"what": "beyond the sides", "why": "air is closed off"}]}"#;
     bench.write("failed/summary.json", summary);
     // Of the run before, in the same folder.
     let table = "side,wp_um\nbottom,7.77\ntop,7.77\ntotal,7.77\n";
     bench.write("killed/wp.csv", table);
-    bench.done("bond-report --run failed --run killed -o page.html");
+    bench.done(
+        "synth-xct -q --adhesive pf -o a.tif
+         xct2particles -q a.tif --labels void=128,wood=0,adhesive=255 --yes-really -o failed/final.mpts
+         xct2particles -q a.tif -o killed/final.mpts
+         bond-report --run failed --run killed -o page.html",
+    );
     let page = bench.text("page.html");
-    assert!(!page.contains("7.77"));
+    assert!(!page.contains("7.77") && !page.contains("killed: wood and void"));
     for told in [
         "failed: failed: step 7: too &lt;fast&gt;",
         "killed: not ended: mpm-run with --resume goes on",
         "<td>not ended</td>",
+        "failed: wood and void look exchanged",
+        "lumens at the bond: 3.5 cells",
+        "Beyond the sides: air is closed off: failed.",
     ] {
         assert!(page.contains(told), "{told}");
     }

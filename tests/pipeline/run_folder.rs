@@ -33,6 +33,9 @@ fn a_run_folder_without_a_mark_is_replaced_only_when_vouched_for() {
     // The closing line names the run: those side by side ended in lines of which none said whose it was.
     let line = press("run", &other, "--overwrite").replace(" -q ", " ");
     bench.ends(0, &line, "run: The run reached its time");
+    let mistyped = press("rnu", &FAST, "--resume").replace(" -q ", " ");
+    let said = "'rnu' holds no run to continue: a new one starts";
+    bench.ends(0, &mistyped, said);
 }
 
 /// 314e630 made the folder anew and ended well, without a history.

@@ -70,7 +70,7 @@ impl Table2 {
     pub fn cell_errors_to_text(&self) -> String {
         let wide = self.widest();
         let mut text = String::from(
-            "With errors: implicit runs carried on to cells of no size by first order +- the difference of the two sizes;\n\
+            "With errors: implicit runs extrapolated to zero cell size (first order) +- the difference of the two sizes;\n\
              other runs: difference from those.\n",
         );
         text += &format!("{:<9} {:<wide$}", "adhesive", "case");

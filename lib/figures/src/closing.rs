@@ -25,6 +25,8 @@ struct Course {
     band: Vec<Reach>,
     /// m/s
     speed: Vec<f64>,
+    /// Whether it is of a press programme, whose stages take milliseconds to minutes.
+    staged: bool,
 }
 
 /// The four axes of the figure.
@@ -160,7 +162,14 @@ impl Axes {
     fn over(runs: &[Course], limit: Option<f64>) -> Self {
         let (first, last) = extent(runs.iter().flat_map(|run| run.time.iter().copied()));
         let (unit, name) = time_unit(last);
-        let time = |title: &str| Axis::over(title, first.min(0.0) / unit, last / unit);
+        let times = || {
+            runs.iter()
+                .flat_map(|run| run.time.iter().map(|t| t / unit))
+        };
+        let time = |title: &str| match runs.iter().any(|run| run.staged) {
+            true => Axis::logarithmic(title, times(), f64::INFINITY),
+            false => Axis::over(title, first.min(0.0) / unit, last / unit),
+        };
         let bands = runs.iter().flat_map(|run| &run.band);
         let bands = bands.flat_map(|at| [at.low, at.high]);
         let pressures = runs.iter().flat_map(|run| run.pressure.iter().copied());
@@ -231,6 +240,7 @@ impl Course {
             pressure: table.data("pressure_top_Pa")?,
             band: Vec::new(),
             speed: table.data("closing_speed_m_s")?,
+            staged: table.has("stage"),
         })
     }
 }
@@ -253,7 +263,7 @@ fn travel(source: &Labelled) -> Result<Vec<f64>, Error> {
 }
 
 /// The largest unit that shows a time of `last` seconds as a number above one.
-pub(crate) fn time_unit(last: f64) -> (f64, &'static str) {
+pub fn time_unit(last: f64) -> (f64, &'static str) {
     match last {
         s if s >= 1.0 => (1.0, "s"),
         s if s >= 1e-3 => (1e-3, "ms"),

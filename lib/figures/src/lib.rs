@@ -45,7 +45,7 @@ mod view;
 mod wp_map;
 
 pub use base64::base64;
-pub use closing::closing;
+pub use closing::{closing, time_unit};
 pub use clouds::{Clouds, Spot};
 pub use column_name::worded;
 pub use drawing::{Drawing, TextBox};

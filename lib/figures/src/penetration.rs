@@ -8,7 +8,7 @@ use crate::{Error, Labelled, Mark, Plot};
 
 /// Longest over shortest time from which time is drawn by its decades: a press takes from microseconds to
 /// minutes.
-const LONG: f64 = 100.0;
+pub(crate) const LONG: f64 = 100.0;
 /// Most times of one profile that are drawn.
 const MOST_TIMES: usize = 5;
 
@@ -140,16 +140,16 @@ fn filled(runs: &[Labelled], tables: &[Table]) -> Result<Plot, Error> {
         } else {
             MOST_TIMES.min(told.len())
         };
-        let (unit, name) = time_unit(told[last]);
         for i in 0..count {
             // The last in any case, the others evenly among the rest.
             let time = told[last - (count - 1 - i) * last / (count - 1).max(1)];
             let rows = (0..depths.len()).filter(|&row| times[row] == time);
-            // A layer without open lumens breaks the line and does not widen the axis.
+            // A layer without open lumens breaks the line and does not widen the axis, nor does one a little over full.
             let place = |row: usize| match shares[row].is_finite() {
-                true => [depths[row], shares[row]],
+                true => [depths[row], shares[row].min(1.0)],
                 false => [f64::NAN; 2],
             };
+            let (unit, name) = time_unit(time);
             let label = match (runs.len(), table.has("time_s")) {
                 (1, true) => format!("{:.3} {name}", time / unit),
                 _ => run.label.clone(),

@@ -34,6 +34,8 @@ pub struct RunEnd {
     pub gap_share: f64,
     /// The smallest that it was at the end of a stage, of a programme that ended with a release.
     held_share: Option<f64>,
+    /// Total WP before that release, um; NaN where the run did not measure it.
+    pub(crate) held_wp_um: Option<f64>,
     time_s: f64,
     command: Vec<String>,
 }
@@ -80,6 +82,8 @@ impl RunEnd {
         let stages = summary.get("programme").and_then(Value::as_array);
         let stages = stages.map_or(&[][..], Vec::as_slice);
         let released = stages.last().is_some_and(|last| last["kind"] == "release");
+        let held = stages.iter().rfind(|stage| stage["kind"] != "release");
+        let held_wp = held.and_then(|stage| stage["wp_m"].as_f64());
         let travels = stages.iter().filter_map(|stage| stage["travel_m"].as_f64());
         Self {
             end: end.unwrap_or("not-ended").replace('_', "-"),
@@ -88,6 +92,7 @@ impl RunEnd {
             gap_m,
             gap_share: gap_m / way_m,
             held_share: released.then(|| 1.0 - travels.fold(f64::NAN, f64::max) / way_m),
+            held_wp_um: released.then(|| 1e6 * held_wp.unwrap_or(f64::NAN)),
             time_s: number("time_s"),
             command: texts("/provenance/command"),
         }
@@ -115,6 +120,15 @@ impl RunEnd {
             "time-limit" => Some("not closed".into()),
             _ => None,
         }
+    }
+
+    /// Which WP it has, of a programme that ended with a release.
+    pub fn released(&self) -> Option<String> {
+        let before = match self.held_wp_um? {
+            wp if wp.is_finite() => format!(", {wp:.2} um in total before it"),
+            _ => String::new(),
+        };
+        Some(format!("WP after its release{before}"))
     }
 
     /// What to do about the mark, in sentences; none where there is nothing to do.
@@ -225,6 +239,9 @@ mod tests {
         let set = RunEnd::of(&summary("set", 1e-6));
         assert_eq!(set.mark().unwrap(), "not closed, 10 % of the gap left");
         assert!(!set.advice().unwrap().contains("--set"));
+        let mut told = summary("closed", 0.0);
+        told["verdict"]["sound"] = false.into();
+        assert_eq!(RunEnd::of(&told).mark().unwrap(), "not sound");
     }
 
     /// Air that was pressed pushes a bond line open again, which was closed until then.
@@ -233,10 +250,13 @@ mod tests {
         let mark = |held_um: f64, gap_m: f64, last: &str| {
             let mut told = summary("programme", gap_m);
             told["programme"] = serde_json::json!([
-                { "kind": "hold", "travel_m": 1e-6 * held_um },
+                { "kind": "hold", "travel_m": 1e-6 * held_um, "wp_m": 7e-6 },
                 { "kind": last, "travel_m": 1e-5 - gap_m },
             ]);
-            RunEnd::of(&told).mark()
+            let end = RunEnd::of(&told);
+            let released = "WP after its release, 7.00 um in total before it";
+            assert_eq!(end.released(), (last == "release").then(|| released.into()));
+            end.mark()
         };
         for (held_um, gap_m, last, said) in [
             (
@@ -257,19 +277,6 @@ mod tests {
             assert_eq!(mark(held_um, gap_m, last).unwrap(), said);
         }
         assert_eq!(mark(10.0, 0.0, "release"), None);
-    }
-
-    #[test]
-    fn runs_that_failed_are_not_sound_or_have_not_ended_are_marked() {
-        for (end, reason, advice) in [
-            ("closed", "lost points", "not sound: lost points"),
-            ("failed", "step 7", "failed: step 7"),
-        ] {
-            let mut told = summary(end, 0.0);
-            told["verdict"] = serde_json::json!({ "sound": false, "reasons": [reason] });
-            assert_eq!(RunEnd::of(&told).advice().unwrap(), advice);
-        }
-        assert_eq!(RunEnd::of(&Value::Null).mark().unwrap(), "not ended");
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::legend::{self, Legend};
 use crate::measure::{self, LINE};
 use crate::page::Page;
 use crate::panels::MARGIN;
+use crate::penetration::LONG;
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -128,9 +129,13 @@ impl Panel {
     /// Its axis and the unit of time, s.
     fn time_axis(&self) -> (Axis, f64) {
         let (unit, name) = time_unit(extent(self.time.iter().copied()).1);
-        let (first, last) = extent(self.time.iter().map(|t| t / unit));
-        let title = format!("time ({name})");
-        (Axis::over(&title, first.min(0.0), last), unit)
+        let times = || self.time.iter().map(|t| t / unit).filter(|t| *t > 0.0);
+        let ((first, last), title) = (extent(times()), format!("time ({name})"));
+        let axis = match last > LONG * first {
+            true => Axis::logarithmic(&title, times(), f64::INFINITY),
+            false => Axis::over(&title, 0.0, last),
+        };
+        (axis, unit)
     }
 
     fn draw(&self, drawing: &mut Drawing, frame: &Frame, rate: &Axis) {

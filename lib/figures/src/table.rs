@@ -141,20 +141,4 @@ mod tests {
         let b = table.data("b").unwrap();
         assert!(b[0] == 2.0 && b[1].is_nan());
     }
-
-    #[test]
-    fn refusals_name_file_row_and_column() {
-        let good = table("a,b,c\n1,x,NaN\nNaN,,\n").unwrap();
-        for (refused, words) in [
-            (good.numbers("d"), ["no column d", "a, b, c"]),
-            (good.numbers("b"), ["row 1", "'x'"]),
-            (good.data("c"), ["column c", "no row holds a finite number"]),
-        ] {
-            let said = refused.unwrap_err().to_string();
-            assert!(words.iter().all(|word| said.contains(word)), "{said}");
-        }
-        for broken in ["a,b\n", "", "a,b\n1\n"] {
-            assert!(table(broken).is_err());
-        }
-    }
 }

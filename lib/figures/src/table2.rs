@@ -84,14 +84,15 @@ static PAPER: [Paper; 8] = [
 const COLUMNS: &str = "adhesive,case,reference,bottom_wp_um,top_wp_um,total_wp_um,slab_wp_um,\
     paper_case,paper_bottom_wp_um,paper_top_wp_um,paper_total_wp_um,note,\
     bottom_wp_extrapolated_um,top_wp_extrapolated_um,total_wp_extrapolated_um,\
-    bottom_wp_error_um,top_wp_error_um,total_wp_error_um,end,sound,gap_um,mark";
+    bottom_wp_error_um,top_wp_error_um,total_wp_error_um,end,sound,gap_um,mark,\
+    total_wp_before_release_um";
 const NOTE: &str = "paper: the paper's specimen, not this one";
 /// The state that a run ends with.
 const FINAL: &str = "final.mpts";
 /// Most bytes of a record beside a table.
 const MOST_BYTES: u64 = 1 << 20;
 /// What the numbers are, in the table for reading.
-pub const ERRORS: &str = "with \u{b1}: extrapolated to infinitely small cells (first order); error: the difference of two sizes \
+pub const ERRORS: &str = "with \u{b1}: extrapolated to zero cell size (first order); error: the difference of two sizes \
     of cells, of the total at least sqrt(bottom^2 + top^2)/2 of the sides' errors";
 
 impl Table2 {
@@ -140,6 +141,8 @@ impl Table2 {
             record.push(end.map_or(String::new(), |e| e.sound.to_string()));
             record.push(end.map_or(String::new(), |e| number(1e6 * e.gap_m)));
             record.push(row.mark());
+            let held = end.and_then(|e| e.held_wp_um);
+            record.push(held.map_or(String::new(), number));
             writer.write_record(record)?;
         }
         writer.flush()
@@ -173,8 +176,9 @@ impl Table2 {
             text += "paper: Hammerquist and Nairn, Table 2; another specimen\n";
         }
         for row in &self.rows {
-            if let Some(advice) = row.end.as_ref().and_then(RunEnd::advice) {
-                text += &format!("{} {}: {advice}\n", row.adhesive, row.case);
+            let ends = row.end.iter();
+            for told in ends.flat_map(|end| end.advice().into_iter().chain(end.released())) {
+                text += &format!("{} {}: {told}\n", row.adhesive, row.case);
             }
         }
         text

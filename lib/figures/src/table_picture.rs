@@ -66,9 +66,9 @@ impl Column {
         if let Some(paper) = paper {
             self.row("paper", below, SMALL, &paper.map(|wp| format!("{wp:.2}")));
         }
-        match row.mark() {
-            none if none.is_empty() => {}
-            mark => self.row(&mark, below, SMALL, &[]),
+        let ends = row.end.iter();
+        for told in ends.flat_map(|end| end.mark().into_iter().chain(end.released())) {
+            self.row(&told.replace(" um", " µm"), below, SMALL, &[]);
         }
     }
 }

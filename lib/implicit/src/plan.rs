@@ -23,7 +23,7 @@ pub struct Plan {
     pub unknowns: f64,
     /// First time step, s.
     pub dt_s: f64,
-    /// Steps to the end if the clamp keeps its full speed.
+    /// Steps to the end if the clamp keeps its full speed; of a press programme far fewer than it takes.
     pub steps: f64,
     /// Memory, bytes.
     pub memory_bytes: f64,
@@ -64,9 +64,7 @@ impl Plan {
         let duration = cure
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
-        // A programme waits in its stages long after the clamp has gone its way, while the liquid sets.
-        let waits: f64 = scene.programme.iter().map(|stage| stage.time_s).sum();
-        let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / THICKENS);
+        let cured = cure.map_or(0.0, |cure| cure.change(duration) / THICKENS);
         let dried = (scene.liquid.water.as_ref())
             .map_or(0.0, |water| water.factor(water.least()).ln() / THICKENS);
         let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);

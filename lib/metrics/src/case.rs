@@ -11,14 +11,15 @@ const OF_CELLS: [(&str, &[&str]); 2] = [
     ("integrator", &["cfl", "tolerance"]),
 ];
 
-/// The case of a run in cells of `cell_m` (m) by the text of its `resolved.toml`, without `[output]`, a default time limit
-/// and what goes with the size of the cells, lengths in metres; none where the text is no case.
-pub fn case_but_cells(resolved: &str, cell_m: f64) -> Option<Table> {
+/// The case of a run in cells of `cell_m` (m) by the text of its `resolved.toml`, without `[output]`, a time limit where it
+/// is a default or not asked for, and what goes with the size of the cells, lengths in metres; none where the text is no case.
+pub fn case_but_cells(resolved: &str, cell_m: f64, limited: bool) -> Option<Table> {
     let limit = |line: &&str| line.starts_with("time_limit") && line.ends_with(DEFAULT);
     let lines = resolved.lines().filter(|line| !limit(line));
     let mut case: Table = lines.collect::<Vec<_>>().join("\n").parse().ok()?;
     case.remove("output");
-    for (table, keys) in OF_CELLS {
+    let limit = (!limited).then_some(("clamp", &["time_limit"][..]));
+    for (table, keys) in OF_CELLS.into_iter().chain(limit) {
         if let Some(table) = case.get_mut(table).and_then(Value::as_table_mut) {
             table.retain(|key, _| !keys.contains(&key));
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use figures::{Known, RunEnd, Table, fixed, pressure_limit};
+use figures::{Known, RunEnd, Table, fixed, pressure_limit, time_unit};
 use particle_file::ParticleFile;
 use serde_json::Value;
 
@@ -30,8 +30,8 @@ pub struct RunFolder {
     pub(crate) pressure: Known,
     /// The most that the press may come to, MPa; NaN where that is not known.
     pub(crate) limit: f64,
-    /// What is odd about the size of its voxels.
-    pub(crate) voxel_doubt: Option<String>,
+    /// What is odd about its voxels.
+    pub(crate) voxel_doubts: Vec<String>,
 }
 
 impl RunFolder {
@@ -76,7 +76,13 @@ impl RunFolder {
         let state = ParticleFile::open(folder.path.join("final.mpts")).ok();
         Ok(Self {
             label: folder.label.clone(),
-            voxel_doubt: state.and_then(|state| voxels::doubt_of_file(state.header())),
+            voxel_doubts: state.map_or(Vec::new(), |state| {
+                let doubts = [
+                    voxels::doubt_of_file(state.header()),
+                    voxels::swapped_in_file(&state),
+                ];
+                doubts.into_iter().flatten().collect()
+            }),
             end: RunEnd::of(&summary),
             setup: Setup::read(&folder.path, &case, &resolved),
             wp,
@@ -96,10 +102,10 @@ impl RunFolder {
         reached.and_then(Value::as_bool).unwrap_or(false)
     }
 
-    /// Whether air was closed off where the specimen ends.
-    pub(crate) fn closes_off_air(&self) -> bool {
+    /// What it says of air that is closed off where the specimen ends.
+    pub(crate) fn beyond_sides(&self) -> Option<&str> {
         let mut left_out = self.list("/left_out").iter();
-        left_out.any(|item| item["what"] == "beyond the sides")
+        left_out.find(|item| item["what"] == "beyond the sides")?["why"].as_str()
     }
 
     /// A number of the summary by its path, times `unit`, with so many decimals.
@@ -110,14 +116,11 @@ impl RunFolder {
 
     /// The simulated time in a unit that suits it: runs take from microseconds to hours.
     fn time(&self) -> String {
-        let (unit, name) = match self.summary.pointer("/time_s").and_then(Value::as_f64) {
-            None => return "-".into(),
-            Some(s) if s < 1e-3 => (1e-6, "us"),
-            Some(s) if s < 1.0 => (1e-3, "ms"),
-            Some(s) if s < 600.0 => (1.0, "s"),
-            Some(_) => (60.0, "min"),
-        };
-        format!("{} {name}", self.number("/time_s", 1.0 / unit, 2))
+        let time = self.summary.pointer("/time_s").and_then(Value::as_f64);
+        time.map_or("-".into(), |time| {
+            let (unit, name) = time_unit(time);
+            format!("{:.2} {}", time / unit, name.replace('µ', "u"))
+        })
     }
 
     fn text(&self, pointer: &str) -> String {
@@ -196,14 +199,17 @@ impl RunFolder {
             none if none.is_empty() => String::new(),
             some => format!(" Measured with the default {some}, unlike this run."),
         };
+        let lumens = rows(self.list("/lumens"), ["what", "why"]).into_iter();
+        let lumens = lumens.map(|item| format!("<p>{}</p>\n", html::escape(&item.join(": "))));
         html::table(
             "Measured error of this scheme and its options",
             &["quantity", "scene", "about (%)"],
             &errors,
-        ) + &format!(
-            "<p>Lumens of 17.4 um, not this specimen's, are {across} cells across here and {cells} in the measurement, walls off the nodes among them: slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference.{}</p>\n",
-            html::escape(&others)
-        )
+        ) + &lumens.collect::<String>()
+            + &format!(
+                "<p>Lumens of 17.4 um, not this specimen's, are {across} cells across here and {cells} in the measurement, walls off the nodes among them: slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference.{}</p>\n",
+                html::escape(&others)
+            )
     }
 
     fn cost(&self) -> String {

@@ -60,7 +60,8 @@ fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
     };
     let run = |run: &RunFolder| {
         let pressure = run.pressure.told_pressure(2, " \u{b1} ", run.limit);
-        let end = run.end.mark().unwrap_or_else(|| ended(&run.end));
+        let mut end = run.end.mark().unwrap_or_else(|| ended(&run.end));
+        end.extend(run.end.released().map(|told| format!("; {told}")));
         let label = vec![run.label.clone()];
         [label, wp(&run.wp).to_vec(), vec![pressure, end]].concat()
     };
@@ -110,9 +111,8 @@ fn doubts(runs: &[RunFolder]) -> String {
             let (label, said) = (escape(&run.label), escape(said));
             items.push(format!("<strong>{label}: {said}</strong>{command}"));
         }
-        if let Some(doubt) = &run.voxel_doubt {
-            items.push(escape(&format!("{}: {doubt}", run.label)));
-        }
+        let doubts = run.voxel_doubts.iter();
+        items.extend(doubts.map(|doubt| escape(&format!("{}: {doubt}", run.label))));
     }
     let mut say = |said: &str, is: &dyn Fn(&RunFolder) -> bool| {
         let labels: Vec<&str> = (runs.iter().filter(|run| is(run)))
@@ -132,10 +132,10 @@ fn doubts(runs: &[RunFolder]) -> String {
         "Adhesive came to the outer face of the wood: the specimen is too small",
         &|run| run.outer_face_reached(),
     );
-    say(
-        "Air in lumens is closed off where the specimen ends: WP is uncertain by its difference from the same run without [air]",
-        &|run| run.closes_off_air(),
-    );
+    if let Some(why) = runs.iter().find_map(RunFolder::beyond_sides) {
+        let said = format!("Beyond the sides: {why}");
+        say(&said, &|run| run.beyond_sides().is_some());
+    }
     let large = |known: &Known| known.error > LARGE * known.best().abs();
     say("WP of a side is off by more than a tenth", &|run| {
         run.wp.iter().any(large)

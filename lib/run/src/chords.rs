@@ -1,10 +1,10 @@
-//! How wide the lumens next to the bond are: chords of the voids, in voxels and cells, for `--explain`.
+//! How wide the lumens next to the bond are: chords of the voids, in voxels and cells.
 
 use std::collections::BTreeMap;
 
 use physics::{RigidBody, Scene, VoxelBlock};
 
-use crate::forecast::line;
+use crate::left_out::LeftOut;
 
 /// Layers of voxels from the bond surface into the wood that are looked at.
 const LAYERS: usize = 32;
@@ -12,8 +12,8 @@ const LAYERS: usize = 32;
 /// (docs/results/verification.md: three cells; docs/results/tradeoff.md: bond line).
 const FEWEST: f64 = 5.0;
 
-/// The lines of `--explain`; empty where the bodies are boxes or have no lumens.
-pub(crate) fn text(scene: &Scene) -> String {
+/// What they are and, where they have few cells, what to do; nothing where the bodies are boxes or have no lumens.
+pub(crate) fn told(scene: &Scene) -> Vec<LeftOut> {
     let sides = [(scene.bottom, true), (scene.top, false)];
     let blocks = sides.map(|(body, up)| Some((single(scene.bodies.get(body?)?)?, up)));
     let mut lengths = Lengths::default();
@@ -24,17 +24,17 @@ pub(crate) fn text(scene: &Scene) -> String {
     }
     let block = blocks.into_iter().flatten().next();
     let (Some(chord), Some((block, _))) = (median(&lengths), block) else {
-        return String::new();
+        return Vec::new();
     };
     let (voxel, cell) = (block.voxel()[0], scene.grid.cell_m);
     let cells = chord as f64 * voxel / cell;
-    let mut out = line(
-        "lumens at the bond",
-        format!(
+    let mut out = vec![LeftOut {
+        what: "lumens at the bond",
+        why: format!(
             "{chord} voxels across the grain, {cells:.1} cells (median by volume of {} chords)",
             lengths.values().sum::<u64>()
         ),
-    );
+    }];
     if cells < FEWEST && cell > 1.01 * voxel {
         // One given in cells would become shorter with them.
         let length = scene.wall.influence_length();
@@ -43,12 +43,12 @@ pub(crate) fn text(scene: &Scene) -> String {
             false => String::new(),
         };
         let um = 1e6 * voxel;
-        out += &line(
-            "proposed",
-            format!(
+        out.push(LeftOut {
+            what: "proposed",
+            why: format!(
                 "one voxel a cell, grid.cell = \"{um:.6} um\"{same_walls}: fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more"
             ),
-        );
+        });
     }
     out
 }

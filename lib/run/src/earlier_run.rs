@@ -86,7 +86,7 @@ fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {
     let folder = folder.display();
     RunFailure::Usage(if resume {
         format!(
-            "'{folder}' holds another run, or the same of another version or at another integrator.cfl that has ended; use --overwrite to replace it"
+            "'{folder}' holds another run: of another case, bond or version, or ended at another integrator.cfl; use --overwrite to replace it"
         )
     } else {
         format!(

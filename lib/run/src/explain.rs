@@ -7,7 +7,7 @@ use physics::{
 
 use crate::case::{Case, SchemeName};
 use crate::forecast::{Forecast, duration, line};
-use crate::left_out::left_out;
+use crate::left_out::{LeftOut, left_out};
 use crate::resolve::Setup;
 use crate::{chords, expected_error, summary};
 
@@ -19,10 +19,9 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     };
     let regime = Regime::of(&setup.scene, &setup.liquid).to_string();
     let regime: String = regime.lines().map(|line| format!("  {line}\n")).collect();
-    let left_out = left_out(case, setup, &forecast.stages);
-    let left_out: String = (left_out.iter())
-        .map(|item| line(item.what, &item.why))
-        .collect();
+    let lines = |items: Vec<LeftOut>| -> String {
+        (items.iter().map(|item| line(item.what, &item.why))).collect()
+    };
     [
         "scene\n",
         &scene(setup),
@@ -30,11 +29,11 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
         "\ncost (estimated)\n",
         &cost(setup, forecast),
         &expected_error::text(case, setup.scene.grid.cell_m),
-        &chords::text(&setup.scene),
+        &lines(chords::told(&setup.scene)),
         "\nregime\n",
         &regime,
         "\nleft out\n",
-        &left_out,
+        &lines(left_out(case, setup, &forecast.stages)),
     ]
     .concat()
 }
@@ -124,7 +123,7 @@ fn dried(water: &Water, cell_m: f64) -> String {
     let [start, least] = [water.start(), water.least()];
     let leaves = (start - least) / (1.0 + start);
     format!(
-        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest is there after {:.3e} s, its middle feeds its wall within {:.1e} s",
+        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest dries to that in {:.3e} s, water from its middle reaches its wall in {:.1e} s",
         100.0 * water.solids(start),
         100.0 * water.solids(least),
         water.factor(least),
@@ -204,24 +203,14 @@ fn told(stage: &PressStage) -> String {
 }
 
 fn cost(setup: &Setup, forecast: &Forecast) -> String {
-    let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);
-    let end_s = setup.nominal_duration_s.min(set.unwrap_or(f64::INFINITY));
-    let held = match forecast.most_steps > forecast.steps {
-        true => format!(
-            ", at most {} where the pressure limit holds the clamp",
-            count(forecast.most_steps)
-        ),
-        false => String::new(),
-    };
-    let steps = count(forecast.steps);
-    let time = duration(forecast.steps * forecast.step_s);
+    let [steps, time] = steps(setup, forecast);
     let threads = rayon::current_num_threads();
     let mut out = [
         line(
             "time step",
             format!("{:.4e} s, set by {}", forecast.dt_s, forecast.limit),
         ),
-        line("steps", format!("about {steps} to {end_s:.4e} s{held}")),
+        line("steps", steps),
         line("memory", machine::bytes(forecast.memory_bytes as u64)),
         line("run time", format!("{time} on {threads} threads")),
     ]
@@ -232,6 +221,27 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
         excess.map(|excess| line("refused", format!("unless --yes-really is given: {excess}"))),
     );
     out
+}
+
+/// How many steps, and what time they take.
+fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
+    if !setup.scene.programme.is_empty() {
+        let not = "not forecast: a press programme takes as many as the flow in lumens, cure, drying and menisci ask for (docs/results/press.md: 108 to 409)";
+        return [not.into(), format!("{:.1e} s a step", forecast.step_s)];
+    }
+    let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);
+    let end_s = setup.nominal_duration_s.min(set.unwrap_or(f64::INFINITY));
+    let held = match forecast.most_steps > forecast.steps {
+        true => format!(
+            ", at most {} where the pressure limit holds the clamp",
+            count(forecast.most_steps)
+        ),
+        false => String::new(),
+    };
+    [
+        format!("about {} to {end_s:.4e} s{held}", count(forecast.steps)),
+        duration(forecast.steps * forecast.step_s),
+    ]
 }
 
 /// A number of steps, in full where it is readable.

@@ -8,8 +8,10 @@ use crate::resolve::Setup;
 
 /// Of a run with air that mirror or periodic sides close off.
 pub(crate) const BEYOND_SIDES: &str = "beyond the sides";
+/// What that does to WP.
+pub(crate) const UNCERTAIN: &str = "uncertain by its difference from the same run without [air]";
 
-/// One thing left out.
+/// One thing left out, or to be known before a run.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct LeftOut {
     /// What.
@@ -38,7 +40,9 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
         None => add("trapped air", "voids are empty: p = 0, no [air]".into()),
         Some(air) if closes_off(air, setup) => add(
             BEYOND_SIDES,
-            "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is uncertain by its difference from the same run without [air]; leak_time is for lumens that go on".into(),
+            format!(
+                "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is {UNCERTAIN}; leak_time is for lumens that go on"
+            ),
         ),
         Some(_) => {}
     }

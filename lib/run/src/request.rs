@@ -11,6 +11,7 @@ use crate::bond_measures;
 use crate::case::{Case, case_text};
 use crate::changes::changed;
 use crate::checkpoint::{self, Checkpoint, Origin};
+use crate::chords;
 use crate::clock::Clock;
 use crate::courant::{Courant, continued, without_cfl};
 use crate::earlier_run::{self, Mode};
@@ -215,6 +216,7 @@ impl Request {
         }
         Ok(Account {
             expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
+            lumens: chords::told(&self.setup.scene),
             left_out: left_out(&self.case, &self.setup, &forecast.stages),
             provenance: summary::provenance(by),
         })

@@ -12,7 +12,7 @@ use crate::ends::End;
 use crate::expected_error::ExpectedError;
 use crate::history;
 use crate::invariants::Invariants;
-use crate::left_out::{BEYOND_SIDES, LeftOut};
+use crate::left_out::{BEYOND_SIDES, LeftOut, UNCERTAIN};
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
@@ -77,6 +77,8 @@ pub struct Summary {
 pub struct Account {
     /// What was measured of the error of its scheme and options.
     pub expected_error: ExpectedError,
+    /// How wide the lumens at the bond are, and what to do where they have few cells.
+    pub lumens: Vec<LeftOut>,
     /// What the run does not compute, and why.
     pub left_out: Vec<LeftOut>,
     /// What made this run folder.
@@ -178,8 +180,7 @@ impl Summary {
             .find_map(|stages| stages[0].wp_m)
             .map(|wp| format!("{:.2} um before the release", 1e6 * wp));
         let mut left_out = self.account.left_out.iter();
-        let doubt = (left_out.any(|item| item.what == BEYOND_SIDES))
-            .then(|| "uncertain by its difference from the same run without [air]".to_owned());
+        let doubt = (left_out.any(|item| item.what == BEYOND_SIDES)).then(|| UNCERTAIN.to_owned());
         let notes: Vec<String> = held.into_iter().chain(doubt).collect();
         match notes.is_empty() {
             true => String::new(),

@@ -61,6 +61,7 @@ pub use segment::{Segmented, check, segment};
 pub use source::Source;
 pub use stack::Stack;
 pub use surface::Surface;
+pub use swapped::swapped_in_file;
 pub use tiff::TiffWriter;
 pub use volume_fractions::VolumeFractions;
 pub use voxel_size::{VoxelEdge, VoxelSize, doubt_of_file};

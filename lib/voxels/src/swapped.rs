@@ -1,5 +1,7 @@
 //! Whether wood and void look exchanged.
 
+use particle_file::{BitGrid, Material, ParticleFile};
+
 use crate::{Phase, Segmented};
 
 /// Shares of an axis at which it is cut.
@@ -44,6 +46,22 @@ impl Segmented {
         }
         sum
     }
+}
+
+/// [`Segmented::swapped`] of an adherend of a bond or state; nothing of a damaged file.
+pub fn swapped_in_file(file: &ParticleFile) -> Option<String> {
+    (0..file.header().blocks.len()).find_map(|index| {
+        let (block, bits) = file.block(index).ok()?;
+        let wood = BitGrid::from_words(bits.dims(), bits.words().to_vec())?;
+        let adhesive = BitGrid::new(bits.dims());
+        let rigid = block.material == Material::Rigid;
+        let segmented = Segmented {
+            wood,
+            adhesive,
+            guessed: None,
+        };
+        segmented.swapped().filter(|_| rigid)
+    })
 }
 
 /// Pieces of void and of wood in a section of rows of `width`.

@@ -56,8 +56,8 @@ pub(crate) enum Figure {
         /// A run: its folder or its history.csv; may be repeated
         #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
         run: Vec<Labelled>,
-        /// The same in cells half as large, by the LABEL of its run: its pressure gets a band, in cells of
-        /// no size by first order +- the difference; may be repeated
+        /// The same run, by its LABEL, in cells half as large: its pressure extrapolated to zero cell size, +- the
+        /// difference, is drawn as a band; may be repeated
         #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
         finer: Vec<Labelled>,
         /// Draw this pressure as a dashed line
@@ -128,7 +128,7 @@ pub(crate) enum Figure {
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
   bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
     Slice(SliceArgs),
-    /// A result of a sweep with its error, pressure and time against each of its parameters
+    /// A result of a sweep with its error, and pressure and time, against each parameter
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
   bond-figures response sweep.csv --result ep_um --error 8% -o ep.png
@@ -140,8 +140,7 @@ pub(crate) enum Figure {
         /// Column of the result to draw
         #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
         result: String,
-        /// Its error by the size of the cells, as a percentage; without it 4 for WP, 6 for WP of a side and 10 for
-        /// pressures, which is what small specimens show at worst
+        /// Its error by the size of the cells, as a percentage [default: the worst of the bonds of make]
         #[arg(long, value_name = "PERCENT", value_parser = share)]
         error: Option<f64>,
         #[command(flatten)]
@@ -226,7 +225,7 @@ pub(crate) struct MovieArgs {
     /// Animated PNG to write; `-` is standard output
     #[arg(short, long, value_name = "PNG", value_parser = given(png))]
     pub(crate) output: Output,
-    /// Frames a second, 0.1 to 60; the last stands for two seconds
+    /// Frames a second, 0.1 to 60; the last frame stays for two seconds
     #[arg(long, value_name = "NUMBER", default_value = "5", value_parser = rate)]
     pub(crate) rate: f64,
     #[command(flatten)]
@@ -246,8 +245,8 @@ pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of a run's final state; may be repeated
     #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = given(run))]
     run: Vec<Case>,
-    /// Write what finer runs say of the errors (of tables by `wp-metrics --finer`): WP, EP and
-    /// pressure carried on to cells of no size, and how far the other runs are from them
+    /// Write errors (needs tables of `wp-metrics --finer`): WP, EP and pressure extrapolated to zero
+    /// cell size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
     pub(crate) errors: Option<Output>,
     /// Show the paper's numbers, which are of another specimen, below ours
@@ -256,7 +255,7 @@ pub(crate) struct Table2Args {
     /// The table as a picture, .svg, .png or .pdf; may be repeated
     #[arg(long, value_name = "FILE", value_parser = given(Target::file))]
     pub(crate) picture: Vec<Target>,
-    /// How an adhesive or a run is called in the picture; may be repeated
+    /// Name of an adhesive or a run in the picture; may be repeated
     #[arg(long, value_name = "KEY=TEXT", value_parser = name)]
     pub(crate) name: Vec<(String, String)>,
     /// CSV to write; `-` is standard output

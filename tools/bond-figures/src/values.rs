@@ -239,7 +239,7 @@ pub(crate) fn cell(text: &str) -> Result<Extent, String> {
     match cell.si(1.0) > 0.0 {
         true => Ok(cell),
         false => Err(format!(
-            "a cell of '{text}' is no cell: its edge must be greater than zero"
+            "'{text}' is no edge of a cell: it must be greater than zero"
         )),
     }
 }

@@ -17,9 +17,9 @@ use report::{Error, Labelled, Report, RunFolder, measured, picture, scene, table
   bond-report --run PF=runs/pf --picture \"Pressure=pressure.svg\" --table \"Table 2=table2.csv\" -o pf.html
   bond-report --title \"PF, 2.5 MPa\" --run PF=runs/pf --state PF=runs/pf/final.mpts -o pf.html
 
-The page begins with a summary: what was pressed, WP with its error by side (of the wp.csv in a run's folder, where wp-metrics \
---finer wrote one), whether the press closed, the first two pictures, and what to doubt. Then tables with rounded numbers, the other \
-pictures, states as surfaces that can be turned (of more than 700 000 voxels the middle), and of each run its parameters, the error to \
+The page begins with a summary: what was pressed, WP by side, with its error if the run folder holds a wp.csv of \
+wp-metrics --finer, whether the press closed, the first two pictures, and what to doubt. Then tables with rounded numbers, the other \
+pictures, states in 3D (the middle of those of more than 700 000 voxels), and for each run its parameters, the error to \
 expect, what was left out, cost and provenance.
 
 Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt data."

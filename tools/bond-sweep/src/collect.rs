@@ -103,7 +103,7 @@ fn report(rows: &[StringRecord]) {
     let failed: Vec<usize> = failed.map(|(i, _)| i).collect();
     if !failed.is_empty() {
         cli::warn(format_args!(
-            "{} of {} rows failed or are not sound and have no numbers, but the reason: {}",
+            "{} of {} rows failed or are not sound, and have the reason instead of numbers: {}",
             failed.len(),
             rows.len(),
             named(&failed)

@@ -69,7 +69,7 @@ struct PlanArgs {
     /// Folder of the sweep
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
-    /// Plan runs too where the forecast is more than 1e9 steps, a week, or the memory that this process may have
+    /// Plan even runs whose forecast exceeds 1e9 steps, a week or the available memory
     #[arg(long)]
     yes_really: bool,
     #[command(flatten)]
@@ -93,7 +93,7 @@ struct CollectArgs {
     /// CSV to write; `-` is standard output
     #[arg(short, long, value_name = "CSV")]
     output: Output,
-    /// Write what each run cost, which is another one each time: time, memory
+    /// Write the time and memory that each run took; they differ each time
     #[arg(long, value_name = "CSV")]
     cost: Option<Output>,
     #[command(flatten)]

@@ -37,11 +37,11 @@ pub(crate) struct Arguments {
     /// Voxels along the edge of a grid cell: the slab is a whole number of cells thick
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub(crate) voxels_per_cell: u16,
-    /// How far to move the top adherend away: auto (as little as leaves room for the slab) or a
-    /// length; from its place in the specimen, of undamaged wood from where the pieces touch
+    /// How far to move the top adherend: auto (just enough for the slab) or a length, from its place
+    /// in the specimen or, for undamaged wood, from where the pieces touch
     #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
     pub(crate) gap: AutoOr,
-    /// Largest change of the adhesive volume by rounding that is accepted
+    /// Largest accepted change of the adhesive volume by rounding
     #[arg(long, value_name = "PERCENT", default_value = "5%", value_parser = percent)]
     pub(crate) tolerance: f64,
     #[command(flatten)]
@@ -75,7 +75,7 @@ pub(crate) struct Wood {
     /// Crop pieces of unequal width to what they share, from their low corners
     #[arg(long)]
     pub(crate) crop_to_fit: bool,
-    /// Leave out wood before a face that nothing joins to it
+    /// Leave out loose wood in front of a glued face
     #[arg(long)]
     pub(crate) drop_islands: bool,
 }

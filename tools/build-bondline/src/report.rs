@@ -90,7 +90,7 @@ fn piece(name: &str, face: &Face, voxel_m: f64) {
     ));
     if face.islands > 0 {
         cli::warn(format!(
-            "{} wood voxels before the {name} face are joined to nothing and hold the pieces apart as wood does; --drop-islands leaves them out",
+            "{} loose wood voxels before the {name} face hold the pieces apart; --drop-islands leaves them out",
             face.islands
         ));
     }

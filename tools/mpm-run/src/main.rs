@@ -26,14 +26,13 @@ const VERSION: &str = if cfg!(feature = "double") {
 
 The run folder is marked by bondline-run.toml and held while a run is on. Written in it: \
 resolved.toml, history.csv, snapshots/NNNN.mpts, checkpoint.mpts, summary.json and, last, \
-final.mpts. Only these are ever replaced, where they prove to be a run's own; other files are \
-left alone, or refused where they are in the way.
+final.mpts. No other file is replaced, nor one of yours under these names: that is refused.
 
 Keys of the explicit scheme that are not the paper's, off unless given \
 (docs/results/explicit-options.md):
   integrator.pressure = \"cell-mean\"            pressure from the mean of a cell
-  integrator.density_projection = \"0.04 cell\"  points evened out after that way
-  contact.separation = \"0.8 cell\"              how near liquid and wall touch
+  integrator.density_projection = \"0.04 cell\"  points evened out after each 0.04 cell of motion
+  contact.separation = \"0.8 cell\"              distance at which liquid and wall touch
 
 Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); \
 2 usage or case file; 3 unreadable or corrupt data; 75 stopped early (SIGINT, SIGTERM, \
@@ -64,15 +63,15 @@ struct Arguments {
     /// Print every table and key of a case file: unit, default, when to change it (Markdown)
     #[arg(long, conflicts_with_all = ["case", "particles", "output", "set", "explain"])]
     reference: bool,
-    /// Run even where the forecast is more than 1e9 steps, a week, or the memory that this process may have
+    /// Run even if the forecast exceeds 1e9 steps, a week or the available memory
     #[arg(long)]
     yes_really: bool,
-    /// Continue from the run folder's last checkpoint, at the case's integrator.cfl even where it
-    /// was another before; start if there is none, do nothing if the run has ended
+    /// Continue from the last checkpoint in the run folder: start if there is none, do nothing if the run
+    /// has ended; of the case only integrator.cfl may have changed
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
-    /// Replace the files of another run in the run folder, and no others; with --resume this very
-    /// run is continued, and stays where it has ended
+    /// Replace the files of another run in the run folder, and no others; with --resume this same
+    /// run is continued, or left alone if it has ended
     #[arg(long, conflicts_with = "explain")]
     overwrite: bool,
     #[command(flatten)]
@@ -101,6 +100,12 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
             "a run is a folder of files and cannot go to standard output: -o RUNDIR is needed",
         ));
     }
+    if arguments.resume && !folder.join("resolved.toml").exists() {
+        cli::note(format!(
+            "'{}' holds no run to continue: a new one starts",
+            folder.display()
+        ));
+    }
     cli::catch_interrupts()?;
     let mode = run::Mode {
         resume: arguments.resume,
@@ -108,12 +113,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         however_long: arguments.yes_really,
     };
     let Some(summary) = request.execute_on_terminal(&folder, mode, VERSION)? else {
-        let Some(verdict) = run::Verdict::of_ended(&folder) else {
-            return Err(Failure::data(format!(
-                "the run in '{}' has ended, but its summary.json does not say whether the results are sound: use --overwrite to run it again",
-                folder.display()
-            )));
-        };
+        let verdict = run::Verdict::of_ended(&folder)?;
         cli::note(format!("{} has ended already", folder.display()));
         return sound(&verdict);
     };

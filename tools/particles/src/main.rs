@@ -11,8 +11,7 @@ use clap::{Args, Parser, Subcommand};
 use cli::{Common, Failure};
 use particle_file::ParticleFile;
 
-/// Look into particle files (.mpts): what they hold, whether they are whole, their sum,
-/// and their content in other formats.
+/// Describe, check, sum and export particle files (.mpts)
 #[derive(Parser, Debug)]
 #[command(
     version,

@@ -28,7 +28,7 @@ struct Arguments {
     /// none is one piece of undamaged wood
     #[arg(long, value_parser = ["pf", "pva-pf", "none"])]
     adhesive: String,
-    /// Wood; all but hybrid poplar without adhesive
+    /// Wood species; only hybrid poplar can have adhesive
     #[arg(long, value_parser = ["hybrid-poplar", "beech", "birch", "spruce"], default_value = "hybrid-poplar")]
     species: String,
     /// Voxels along x, y and z
@@ -43,7 +43,7 @@ struct Arguments {
     /// Angle of the fibres against the bond plane, 0 to 30 deg [default: drawn from 3 to 6 deg for each adherend]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = units::si::<Angle>)]
     grain_angle: Option<f64>,
-    /// Grow it even where that is forecast to need more memory than this process may have
+    /// Grow it even if the forecast exceeds the available memory
     #[arg(long)]
     yes_really: bool,
     /// Seed of all random choices

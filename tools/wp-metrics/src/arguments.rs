@@ -57,7 +57,7 @@ pub(crate) struct Arguments {
     /// Where the table goes; `-` is standard output
     #[arg(short, long, value_name = "CSV", default_value = "-")]
     pub(crate) output: Output,
-    /// Write mean and standard deviation over the files (two or more, no copies), each of which counts as one
+    /// Write mean and standard deviation over the files (two or more, no copies; each counts once)
     #[arg(long, value_name = "CSV", conflicts_with_all = ["series", "finer"])]
     pub(crate) summary: Option<Output>,
     /// Write WP and volume of every column of voxels across the bond (one FILE only)
@@ -70,30 +70,29 @@ pub(crate) struct Arguments {
     /// the maps
     #[arg(long, value_name = "EXPERIMENT")]
     pub(crate) compare: Option<PathBuf>,
-    /// Add WP, EP and pressure carried on to cells of no size, and their errors, from the end of
-    /// the same run in cells at most half as large: first order, error the difference (one FILE only)
+    /// Add WP, EP and pressure extrapolated to zero cell size (first order), with the difference as error, by
+    /// the last state of the same run in cells at most half as large (one FILE only)
     #[arg(long, value_name = "STATE")]
     pub(crate) finer: Option<PathBuf>,
-    /// Add time, gap (way of the clamp left until the bond is closed), depth of 95 % of the adhesive, wetted
-    /// area, distance of the bond surfaces, depth to which the open lumens are half full, and state of the bond line (filled;
-    /// starved where less than half of the room within two voxels of the adherends' surfaces is filled;
-    /// squeezed-out where a twentieth of the adhesive has left), in order of time; FILE may be the
-    /// folder of a run
+    /// Sort by time, and add time, gap (travel of the clamp left until the bond is closed), depth of 95 % of the adhesive,
+    /// wetted area, distance of the bond surfaces, depth to which the open lumens are half full, and state of the bond line
+    /// (filled; starved: less than half of the space within two voxels of the bond surfaces is filled; squeezed-out: a
+    /// twentieth of the adhesive has left); FILE may be a run folder
     #[arg(long)]
     pub(crate) series: bool,
     /// Add the pressure on the body that the clamp drives (states of runs; with --finer always)
     #[arg(long)]
     pub(crate) pressure: bool,
-    /// Leave out adhesive that hangs together to fewer than N pixels of a slice normal to z, by edges and corners (stacks,
+    /// Leave out islands of adhesive of fewer than N pixels in slices normal to z, connected by edges and corners (stacks,
     /// specimens and bonds)
     #[arg(long, value_name = "N", conflicts_with_all = ["compare", "finer", "series"])]
     pub(crate) ignore_islands: Option<usize>,
-    /// Tell the permeability along this axis instead, x, y or z, of all that is not wood full of liquid that sticks to it:
-    /// steady flow through the voxels in cells of one, and as its error the distance from that in cells of two
+    /// Compute the permeability along this axis, x, y or z, instead: steady flow through all that is not wood, at rest on the
+    /// wood, in cells of one voxel; its error is the difference from cells of two
     #[arg(long, value_name = "AXIS", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) permeability: Option<Axis>,
-    /// Tell the sizes of pores and lumens instead: the share of what is not wood by the diameter of the largest ball that fits between the
-    /// wood and holds the place (for bond-figures pores)
+    /// Measure pores and lumens instead: the share of all that is not wood by the diameter of the largest ball around each
+    /// place that fits between the wood (for bond-figures pores)
     #[arg(long, conflicts_with = "permeability", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) pores: bool,
     /// The sides along the flow are periodic, not mirrors

@@ -21,7 +21,7 @@ pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
             true => states.extend(states_of_run(path).map_err(Failure::data)?),
             false if path.as_os_str() == "-" => {
                 return Err(Failure::usage(
-                    "--series takes files, whose times are read first, and not standard input",
+                    "--series takes files, not standard input: it reads their times first",
                 ));
             }
             false => states.push(path.clone()),

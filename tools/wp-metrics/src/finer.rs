@@ -6,7 +6,7 @@ use std::path::Path;
 use cli::Failure;
 use metrics::table::PenetrationRows;
 use metrics::{Datum, LEAST_RATIO, State, case_but_cells, cell_error, extrapolated, penetration};
-use toml::{Table, Value};
+use toml::Table;
 
 use crate::arguments::Arguments;
 use crate::input::Input;
@@ -26,7 +26,7 @@ pub fn carry_on(
     // A hair for the rounding of lengths written as text.
     if ratio.is_nan() || ratio < LEAST_RATIO * (1.0 - 1e-6) {
         return Err(Failure::usage(format!(
-            "'{}' has cells of {:.4} um and '{}' of {:.4} um: those of --finer must be {LEAST_RATIO} times smaller or more for the difference to be an error",
+            "'{}' has cells of {:.4} um and '{}' of {:.4} um: --finer needs cells at least {LEAST_RATIO} times smaller",
             input.name,
             1e6 * cells[0],
             finer.name,
@@ -52,7 +52,7 @@ pub fn carry_on(
     let times = [input.time_s(), finer.time_s()];
     if (times[0] - times[1]).abs() > 1e-6 * times[0] && !closed_alike(&state, &fine) {
         return Err(Failure::usage(format!(
-            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and the clamp's way is another: --finer takes the same moment of the same run in smaller cells",
+            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and the clamp has not gone as far: --finer takes the same moment of the same run in smaller cells",
             input.name, times[0], finer.name, times[1]
         )));
     }
@@ -68,11 +68,7 @@ fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<String> {
     let case = |side: usize| -> Option<Table> {
         let folders = Path::new(states[side]).ancestors().skip(1).take(2);
         let mut texts = folders.map(|folder| fs::read_to_string(folder.join("resolved.toml")));
-        let mut case = case_but_cells(&texts.find_map(Result::ok)?, cells[side])?;
-        if let Some(clamp) = case.get_mut("clamp").and_then(Value::as_table_mut) {
-            clamp.remove("time_limit");
-        }
-        Some(case)
+        case_but_cells(&texts.find_map(Result::ok)?, cells[side], false)
     };
     let (run, finer) = (case(0)?, case(1)?);
     let mut tables = run.keys().chain(finer.keys());

@@ -10,9 +10,9 @@ use voxels::{Crop, Dims, Grey, Labels, RawType};
 
 /// Turn a stack of XCT label images into a particle file
 ///
-/// Every voxel of wood or adhesive becomes one material point. The stored sample value is the
-/// label, whatever colour an image program shows for it, unless that differs between pages: then
-/// the colours are the labels. Pages are z, rows y, columns x.
+/// Every voxel of wood or adhesive becomes one material point. Labels are the stored sample values,
+/// whatever colours an image program shows; the colours only where one value has several, page by
+/// page. Pages are z, rows y, columns x.
 #[derive(Parser)]
 #[command(
     version,
@@ -45,20 +45,20 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "void=L,wood=L,adhesive=L", conflicts_with = "grey")]
     pub(crate) labels: Option<Labels>,
     /// Grey values of wood and adhesive, both ends included, for a stack without labels; wood alone
-    /// has no adhesive. auto proposes them (Otsu's two thresholds), to be looked at: wood darker
-    /// than adhesive; auto-wood does for wood alone (one threshold)
+    /// has no adhesive. auto proposes them (Otsu's two thresholds) for wood darker than adhesive,
+    /// auto-wood for wood alone (one threshold): check them by --preview
     #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..", value_parser = grey)]
     pub(crate) grey: Option<GreyLevels>,
     /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
     /// would take
     #[arg(long, value_name = "CSV")]
     pub(crate) histogram: Option<Output>,
-    /// Give every piece of at most N voxels, which is noise, the phase that most faces around it have;
-    /// a piece hangs together by faces, edges or corners
+    /// Take pieces of at most N voxels, connected by faces, edges or corners, for noise: they become the
+    /// phase that most faces around them have
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) despeckle: Option<u16>,
-    /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its centre, and
-    /// the box is as much smaller as it has to be to lie within the stack; that axis is the file's across the bond
+    /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its centre,
+    /// the box shrinks to lie within the stack, and this axis becomes the bond normal of the file
     #[arg(long, value_name = "AXIS")]
     pub(crate) level: Option<Axis>,
     /// Draw the phases in three cuts through the middle, to be looked at before anything is run

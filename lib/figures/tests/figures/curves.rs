@@ -69,6 +69,16 @@ fn rows_stand_in_the_middle_of_their_steps() {
     assert!(drawn(0.0) == drawn(1e-6), "a step is drawn at its end");
 }
 
+/// Stages of milliseconds stand beside a hold of minutes.
+#[test]
+fn a_press_programme_has_a_logarithmic_time() {
+    let folder = Folder::new();
+    let rows = [1e-3, 1.0, 300.0].map(|t| format!("{t},0,1,1e6,1"));
+    let header = "time_s,dt_s,closing_speed_m_s,pressure_top_Pa,stage";
+    let drawing = closed(&[folder.labelled("a", csv(header, rows))]);
+    says(&drawing, &["time (s)", "10⁻²", "10²"]);
+}
+
 /// A run at 1 MPa and its finer one at 1.2, which goes as far in half the time: in cells of no size 1.4 +- 0.2
 /// by first order, as long as the first one takes.
 #[test]
@@ -152,6 +162,8 @@ fn shear_rates_have_bands_median_and_decades() {
     let band = pixels.iter().filter(bluish).count() as f64 / pixels.len() as f64;
     println!("bands cover {band:.3}");
     assert!(band > 0.08 && band < 0.4);
+    let slow = folder.labelled("slow", csv(header, [row(1), row(1000)]));
+    says(&shear_rates(&[slow], Page::default()).unwrap(), &["10⁻³"]);
     let still = folder.labelled("still", csv(header, [row(0)]));
     let said = shear_rates(&[still], Page::default()).unwrap_err();
     assert!(said.to_string().contains("nothing flows"));

@@ -98,7 +98,7 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
     folder.file("bondline-run.toml", "");
     folder.file(
         "summary.json",
-        r#"{"end": "closed", "verdict": {"sound": true}}"#,
+        r#"{"end": "closed", "verdict": {"sound": true}, "programme": [{"kind": "hold", "wp_m": 7e-6}, {"kind": "release"}]}"#,
     );
     folder.file("resolved.toml", "[clamp]\nmax_pressure = \"2.5 MPa\"\n");
     let table = Table2::read(&runs).unwrap();
@@ -117,7 +117,8 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         );
     }
     let shown = table.to_text();
-    for told in ["7.15 +- 0.25", "sqrt(bottom^2 + top^2)/2"] {
+    let released = "pf let go: WP after its release, 7.00 um in total before it";
+    for told in [released, "7.15 +- 0.25", "sqrt(bottom^2 + top^2)/2"] {
         assert!(shown.contains(told), "{shown}");
     }
     says(&table.draw(&BTreeMap::new(), Page::default()), &["± 0.25"]);
@@ -187,7 +188,7 @@ fn a_press_that_did_not_close_is_marked() {
         assert!(text.contains(told), "{text}");
     }
     let rows = written(|out| table.write_csv(out));
-    let cells = ",time-limit,true,4.2000,\"not closed, 42 % of the gap left\"";
+    let cells = ",time-limit,true,4.2000,\"not closed, 42 % of the gap left\",";
     assert!(rows[1].ends_with(cells));
     let picture = texts(&table.draw(&BTreeMap::new(), Page::default()));
     assert!(picture.iter().any(|t| t.starts_with("not closed")));

@@ -112,9 +112,7 @@ fn cure(table: &CureTable) -> Result<Cure, RunFailure> {
         }
     };
     if table.activation_energy.is_some() && course.is_none() {
-        return refused(
-            "[adhesive.cure] activation_energy is that of gel_time or factor: one of them is needed",
-        );
+        return refused("[adhesive.cure] activation_energy needs gel_time or factor beside it");
     }
     let heats = table.activation_energy.is_some() || table.flow_activation_energy.is_some();
     let reference = match (&table.temperature, table.reference_temperature) {

@@ -50,7 +50,7 @@ fn clamp_is_clear(
         };
         if let Some(other) = collisions::possible(scene, limit_s, most_m, slack) {
             return refused(format!(
-                "where the clamp is when '{}' of given velocity comes into its way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
+                "'{}' of given velocity may meet the clamp's body, whose way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
                 other.name
             ));
         }

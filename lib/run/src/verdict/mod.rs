@@ -12,6 +12,7 @@ use std::path::Path;
 use physics::Scene;
 use serde::{Deserialize, Serialize};
 
+use crate::failure::RunFailure;
 use crate::folder;
 
 pub(crate) use course::{MOST_PRESSURE, state, step};
@@ -40,11 +41,22 @@ impl Verdict {
         Self::because(self.reasons)
     }
 
-    /// That of the run that ended in `folder`; `None` where its summary does not say.
-    pub fn of_ended(folder: &Path) -> Option<Self> {
-        let text = fs::read_to_string(folder.join(folder::SUMMARY)).ok()?;
-        let summary: serde_json::Value = serde_json::from_str(&text).ok()?;
-        serde_json::from_value(summary.get("verdict")?.clone()).ok()
+    /// That of the run that ended in `folder`.
+    ///
+    /// # Errors
+    /// [`RunFailure::Data`] where its summary does not say.
+    pub fn of_ended(folder: &Path) -> Result<Self, RunFailure> {
+        let read = || {
+            let text = fs::read_to_string(folder.join(folder::SUMMARY)).ok()?;
+            let summary: serde_json::Value = serde_json::from_str(&text).ok()?;
+            serde_json::from_value(summary.get("verdict")?.clone()).ok()
+        };
+        read().ok_or_else(|| {
+            RunFailure::Data(format!(
+                "the run in '{}' has ended, but its summary.json does not say whether the results are sound: remove the folder to run it again",
+                folder.display()
+            ))
+        })
     }
 
     /// What is wrong, as a sentence; nothing of a sound state.
@@ -99,16 +111,5 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
 "#;
         let case = Case::parse(text, Path::new("case.toml")).unwrap();
         resolve(&case, None).unwrap()
-    }
-
-    #[test]
-    fn only_a_state_with_reasons_against_it_is_objected_to() {
-        let of =
-            |reasons: &[&str]| Verdict::because(reasons.iter().map(ToString::to_string).collect());
-        assert_eq!(of(&[]).and(None).objection(), None);
-        let said = of(&["no liquid is left"]).and(Some("it did not settle".into()));
-        let said = said.objection().unwrap();
-        assert!(said.starts_with("the results are not sound"), "{said}");
-        assert!(said.ends_with(": no liquid is left; it did not settle"));
     }
 }

@@ -161,21 +161,9 @@ fn stages_that_contradict_one_another_are_refused() {
     bench(STAGES).refuses(PLAIN, &["integrator.scheme=explicit"], &said);
 }
 
-/// The clamp has long gone its way when the adhesive sets in the hold: as many steps as change its viscosity.
+/// By its travel alone a hot press takes 11 steps; it takes 82, and 400 with all effects.
 #[test]
-fn the_plan_counts_the_steps_of_cure_in_all_stages() {
-    let cured = case("8 um", &STAGES.replace("slower = \"500 um/s\"\n", ""));
-    let cure = "[adhesive.cure]\ngel_time = \"100 s\"\nexponent = 2.0\n[contact]";
-    let bench = Bench::with(&cured.replace("[contact]", cure));
-    let plan = bench.read(&[]).unwrap().explain().unwrap();
-    let line = plan
-        .lines()
-        .find(|line| line.starts_with("  steps"))
-        .unwrap();
-    let told: f64 = line.split_whitespace().nth(2).unwrap().parse().unwrap();
-    let summary = bench.ran("run", PLAIN, END);
-    println!("{line}; taken {}", summary.steps);
-    assert_eq!(summary.end, End::Set);
-    assert!((told / summary.steps as f64 - 1.0).abs() < 0.5, "{line}");
-    assert!(line.contains("9.9900e1 s"), "{line}");
+fn the_plan_of_a_programme_forecasts_no_steps() {
+    let plan = bench(STAGES).plan(&[]).unwrap();
+    has(&plan, &["\nsteps not forecast: ", " s a step on "]);
 }

@@ -47,6 +47,8 @@ const REFUSED: &[Refused] = &[
     (&[], &["stop.time=1 us"], "[stop] is for runs without [clamp]"),
     (&[], &["contact.influence_length=0 cell"], "greater than zero"),
     (&[], &["clamp.stop=never"], "closed"),
+    (&[("velocity = \"clamp\"\n", "")], &[], "[clamp] has nothing to move"),
+    (&[], &["gravity.acceleration=[\"0 m/s2\", \"-1e15 m/s2\", \"0 m/s2\"]"], "smaller acceleration"),
     (&[], &["grid=1"], "grid"),
     (&[], &["grid.cell"], "KEY=VALUE"),
     (&[], &["=1"], "the key is empty"),
@@ -90,7 +92,7 @@ fn bodies_that_would_meet_or_outrun_sound_are_refused() {
         (&[], "clamp.travel=7 um", into_wall),
         // Where the pressure may hold the clamp before, the run itself sees to it.
         (&[], "clamp.stop=3.5 us", ""),
-        (&[riser], "grid.dimensions=3", "when 'riser' of given"),
+        (&[riser], "grid.dimensions=3", "'riser' of given"),
         (&[low], "clamp.travel=3 um", ""),
         (&[low], "clamp.travel=1 um", "nothing would be pressed"),
         (&[], "clamp.closing_speed=913 m/s", "_speed is 9.1300e2"),

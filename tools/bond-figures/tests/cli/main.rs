@@ -118,8 +118,6 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
             "pressure --run words.csv",
             "row 2 below the header, column pressure_top_Pa: 'much'",
         ),
-        ("map --map wp.csv", "no column x_um"),
-        ("shear wp.csv", "no column"),
         ("pores wp.csv", "diameter_um"),
         ("slice wp.csv", "wp.csv"),
         ("view wp.csv", "wp.csv"),
@@ -145,7 +143,7 @@ p95_depth_total_um,wetted_area_bottom_um2,wetted_area_top_um2,bond_line";
     ];
     table("press/history.csv", &[&[history][..], &rows].concat());
     let profile = "time_s,depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction";
-    let layers = ["1e-5,-1,0.5,0.5,0.7", "1e-5,1,0.5,0.5,1", "1e-5,3,0,0,NaN"];
+    let layers = ["1e-5,-1,0.5,0.5,0.7", "300,1,0.5,0.5,1.01", "300,3,0,0,NaN"];
     table("depth.csv", &[&[profile][..], &layers].concat());
     let mut series = "file,side,reference,wp_um,time_s,p95_depth_um,bond_line\n".to_owned();
     for (time, wp, state) in [
@@ -164,7 +162,10 @@ p95_depth_total_um,wetted_area_bottom_um2,wetted_area_top_um2,bond_line";
         ("press", &["WP, bottom", "starved", "time (µs)"][..]),
         ("a=press b=press", &["a: WP, total", "b: starved"]),
         ("--show wetted press", &["wood wetted (µm²)", "top"]),
-        ("--show filled depth.csv", &["10.000 µs", "filled share"]),
+        (
+            "--show filled depth.csv",
+            &["10.000 µs", "300.000 s", "filled share", "1.0"],
+        ),
         (
             "series.csv",
             &["WP, bottom", "95 %, top", "starved", "time (s)", "10⁻⁶"],

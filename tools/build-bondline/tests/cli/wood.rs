@@ -10,14 +10,11 @@ fn bench() -> Bench {
     let bench = crate::bench();
     let dims = [24, 40, 16];
     let wood = BitGrid::from_fn(dims, |x, y, _| x % 4 != 1 || y == 0);
-    let (none, mut speck) = (BitGrid::new(dims), BitGrid::new(dims));
-    speck.set(1, 20, 3, true);
+    let none = BitGrid::new(dims);
     let mut across_x = header(dims);
     across_x.normal = 0;
     bench.write_specimen("a.mpts", header(dims), &wood, &none);
     bench.write_specimen("x.mpts", across_x, &wood, &none);
-    bench.write_specimen("bonded.mpts", header(dims), &wood, &speck);
-    bench.write("empty.mpts", "");
     bench
 }
 
@@ -63,14 +60,12 @@ a.mpts --slab 11.6um --spread 14g/m2 --density 1.2g/cm3 --plane 29um | 2 | canno
 a.mpts --turn-top 90 | 2 | for undamaged wood
 a.mpts --plane 29um --slab 11.6um --turn-top 90 | 2 | --crop-to-fit
 a.mpts --plane 29um --slab 11.6um --turn-top 45 | 2 | 0, 90, 180, 270
-bonded.mpts --plane 29um --slab 11.6um | 2 | holds adhesive
 --bottom a.mpts --top a.mpts | 2 | hold no adhesive
 --bottom a.mpts --slab 11.6um | 2 | --top
 --bottom a.mpts --top a.mpts --slab 11.6um --plane 29um | 2 | --plane cuts one piece
 a.mpts --bottom a.mpts --top a.mpts --slab 11.6um | 2 | cannot be used with
 --bottom - --top - --slab 11.6um | 2 | both pieces
 --bottom a.mpts --top x.mpts --slab 11.6um | 2 | not the same axis
---bottom a.mpts --top empty.mpts --slab 11.6um | 3 | empty
 ";
 
 #[test]
