@@ -226,7 +226,7 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
 /// How many steps, and what time they take.
 fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
     if !setup.scene.programme.is_empty() {
-        let not = "not forecast: a press programme takes as many as the flow in lumens, cure, drying and menisci ask for (docs/results/press.md: 108 to 409)";
+        let not = "not forecast: a press programme takes as many as the flow in lumens, cure, drying and menisci ask for (examples are in docs/results/press.md)";
         return [not.into(), format!("{:.1e} s a step", forecast.step_s)];
     }
     let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);
