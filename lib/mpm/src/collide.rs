@@ -205,7 +205,9 @@ fn move_point(
     let mut axes = local[..lattice.axes()].iter();
     let stays = axes.all(|l| (0..EDGE as i32).contains(l));
     if stays {
-        tile.points.base[p] = base_of(local);
+        let base = base_of(local);
+        tile.points.scattered |= tile.points.base[p] != base;
+        tile.points.base[p] = base;
     } else {
         tile.leaving.push((node, tile.points.get(p)));
         tile.points.swap_remove(p);

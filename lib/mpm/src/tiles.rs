@@ -35,6 +35,8 @@ pub(crate) struct Points {
     pub(crate) stress: Vec<Lanes8>,
     /// Empty unless APIC.
     pub(crate) affine: Vec<[Lanes4; 3]>,
+    /// Points came, went or changed node since they were last brought together: few do in a step.
+    pub(crate) scattered: bool,
 }
 
 /// What a thread keeps of one tile while it works on it.
@@ -57,6 +59,7 @@ macro_rules! each {
             motion,
             stress,
             affine: _,
+            scattered: _,
         } = $points;
         each!($list, $does, id base place motion stress);
     }};
@@ -74,6 +77,7 @@ impl Points {
     }
 
     pub(crate) fn push(&mut self, point: &Point, base: u16, affine: bool) {
+        self.scattered = true;
         if self.len() == self.id.capacity() {
             // An eighth more: points are most of a run's memory, which doubling would half waste.
             let more = self.len() / 8 + 8;
@@ -104,6 +108,9 @@ impl Points {
 
     /// Brings the points of each node together where moves have scattered them.
     pub(crate) fn gather_runs(&mut self) {
+        if !std::mem::take(&mut self.scattered) {
+            return;
+        }
         if let Some(order) = run_order(&self.base) {
             each!(self, |list| reorder(list, &order));
             if !self.affine.is_empty() {
@@ -113,6 +120,7 @@ impl Points {
     }
 
     pub(crate) fn swap_remove(&mut self, p: usize) {
+        self.scattered = true;
         each!(self, |list| list.swap_remove(p));
         if !self.affine.is_empty() {
             self.affine.swap_remove(p);
