@@ -73,7 +73,7 @@ struct Move<'a> {
 impl Kernel for Move<'_> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        if self.tile.bodies == 0 && self.tile.at_side.is_empty() {
+        if self.tile.bodies == 0 && self.tile.sides.is_empty() {
             self.each::<FMA, true>();
         } else {
             self.each::<FMA, false>();
@@ -96,14 +96,18 @@ impl Move<'_> {
         let grids: Vec<FaceGrid> = faces(tile, lattice, bodies);
         let axes = lattice.axes();
         let nearest = nearest(axes);
+        let (mut here, mut local) = (usize::MAX, [0.0; 4]);
         let mut p = 0;
         while p < tile.points.len() {
             let shift = shifts[p];
             let d = tile.points.place[p].plus::<FMA>(shift);
             let base = usize::from(tile.points.base[p]);
-            let clear = FREE || !tile.near_wall[base] || far(&grids, base, &d, &shift);
-            let at_side = !FREE && tile.at_side.get(base) == Some(&true);
-            if clear && !at_side && d.is_within(nearest) {
+            if base != here {
+                (here, local) = (base, local_of(base));
+            }
+            let clear = FREE || !tile.near_wall[base] || far(&grids, &local, &d, &shift);
+            let beyond = !FREE && tile.sides.get(base).is_some_and(|&sides| leaves(sides, &d));
+            if clear && !beyond && d.is_within(nearest) {
                 tile.points.place[p] = d;
                 p += 1;
             } else if !(0..axes).all(|a| shift.0[a].abs() < 0.9) {
@@ -156,16 +160,29 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
         .collect()
 }
 
-/// Whether a point at `d` from the tile-local node of `base` after moving by `shift` cannot have crossed a
-/// face. In whole vectors: the fourth lane, of no axis, is half way between faces.
+/// The tile-local node of window base `base`, and nothing beside it.
 #[inline(always)]
-fn far(grids: &[FaceGrid], base: usize, d: &Lanes4, shift: &Lanes4) -> bool {
-    let local = [
+fn local_of(base: usize) -> [Real; 4] {
+    [
         (base % HALO) as Real,
         (base / HALO % HALO) as Real,
         (base / (HALO * HALO)) as Real,
         0.0,
-    ];
+    ]
+}
+
+/// Whether a point at `d` from a node is beyond one of the sides that the node is on (`Tile::sides`).
+#[inline(always)]
+fn leaves(sides: u8, d: &Lanes4) -> bool {
+    let low = |a: usize| sides >> a & 1 == 1 && d.0[a] < 0.0;
+    let high = |a: usize| sides >> (3 + a) & 1 == 1 && d.0[a] > 0.0;
+    sides != 0 && (0..3).any(|a| low(a) || high(a))
+}
+
+/// Whether a point at `d` from the tile-local node `local` after moving by `shift` cannot have crossed a
+/// face. In whole vectors: the fourth lane, of no axis, is half way between faces.
+#[inline(always)]
+fn far(grids: &[FaceGrid], local: &[Real; 4], d: &Lanes4, shift: &Lanes4) -> bool {
     let mut clear = true;
     for grid in grids {
         let mut room = [0.0; 4];
@@ -205,7 +222,9 @@ fn move_point(
     let mut axes = local[..lattice.axes()].iter();
     let stays = axes.all(|l| (0..EDGE as i32).contains(l));
     if stays {
-        tile.points.base[p] = base_of(local);
+        let base = base_of(local);
+        tile.points.scattered |= tile.points.base[p] != base;
+        tile.points.base[p] = base;
     } else {
         tile.leaving.push((node, tile.points.get(p)));
         tile.points.swap_remove(p);

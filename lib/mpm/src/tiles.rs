@@ -35,6 +35,8 @@ pub(crate) struct Points {
     pub(crate) stress: Vec<Lanes8>,
     /// Empty unless APIC.
     pub(crate) affine: Vec<[Lanes4; 3]>,
+    /// Points came, went or changed node since they were last brought together: few do in a step.
+    pub(crate) scattered: bool,
 }
 
 /// What a thread keeps of one tile while it works on it.
@@ -57,6 +59,7 @@ macro_rules! each {
             motion,
             stress,
             affine: _,
+            scattered: _,
         } = $points;
         each!($list, $does, id base place motion stress);
     }};
@@ -74,6 +77,7 @@ impl Points {
     }
 
     pub(crate) fn push(&mut self, point: &Point, base: u16, affine: bool) {
+        self.scattered = true;
         if self.len() == self.id.capacity() {
             // An eighth more: points are most of a run's memory, which doubling would half waste.
             let more = self.len() / 8 + 8;
@@ -104,6 +108,9 @@ impl Points {
 
     /// Brings the points of each node together where moves have scattered them.
     pub(crate) fn gather_runs(&mut self) {
+        if !std::mem::take(&mut self.scattered) {
+            return;
+        }
         if let Some(order) = run_order(&self.base) {
             each!(self, |list| reorder(list, &order));
             if !self.affine.is_empty() {
@@ -113,6 +120,7 @@ impl Points {
     }
 
     pub(crate) fn swap_remove(&mut self, p: usize) {
+        self.scattered = true;
         each!(self, |list| list.swap_remove(p));
         if !self.affine.is_empty() {
             self.affine.swap_remove(p);
@@ -204,8 +212,9 @@ pub(crate) struct Tile {
     pub(crate) cells: Vec<CellSum>,
     /// Per window base: a body is within reach of these nodes.
     pub(crate) near_wall: Vec<bool>,
-    /// Per window base: the node is on a side of the domain; empty where none is.
-    pub(crate) at_side: Vec<bool>,
+    /// Per window base: sides of the domain that the node is on, bit a for the low and 3 + a for the high one along
+    /// axis a; empty where none is.
+    pub(crate) sides: Vec<u8>,
     /// Bodies within reach, bit b for body b.
     pub(crate) bodies: u64,
     /// Points that leave: target node and point, in order of departure.
@@ -221,21 +230,23 @@ impl Tile {
     pub(crate) fn new(key: u64, lattice: &Lattice, present: Present, bodies: usize) -> Self {
         let n = lattice.halo_len();
         let origin = lattice.tile_origin(key);
-        let mut at_side = vec![false; n];
+        let mut sides = vec![0; n];
         for i in 0..lattice.block_len() {
             let local = block_node(i);
-            at_side[usize::from(base_of(local))] = (0..lattice.axes()).any(|a| {
+            for a in 0..lattice.axes() {
                 let node = origin[a] + local[a];
-                node <= 0 || node >= lattice.cells[a]
-            });
+                let (low, high) = (node <= 0, node >= lattice.cells[a]);
+                sides[usize::from(base_of(local))] |=
+                    u8::from(low) << a | u8::from(high) << (3 + a);
+            }
         }
-        if !at_side.contains(&true) {
-            at_side = Vec::new();
+        if sides.iter().all(|&sides| sides == 0) {
+            sides = Vec::new();
         }
         Self {
             key,
             origin,
-            at_side,
+            sides,
             points: Points::default(),
             spans: Vec::new(),
             local: vec![Lanes8::ZERO; n],

@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use rayon::prelude::*;
 
 use crate::lanes::Lanes8;
-use crate::lattice::{HALO, Lattice, block_index};
+use crate::lattice::{EDGE, HALO, Lattice, block_index};
 use crate::nodes::Block;
 use crate::stages::Present;
 use crate::tiles::{Point, Span, Tile, base_of, bases};
-use crate::walls::{BlockShape, Integrator, NearBody};
+use crate::walls::{BlockShape, Integrator, NearBody, Rows};
 
 /// Tiles where liquid is and the blocks of nodes that it reaches, both ordered by key, which
 /// fixes the order of every sum.
@@ -20,6 +20,8 @@ pub(crate) struct Grid {
     block_keys: Vec<u64>,
     tile_of: HashMap<u64, usize>,
     bodies: usize,
+    /// Of each body.
+    rows: Vec<Rows>,
     present: Present,
     /// Tiles changed since the bodies' reach was marked on them.
     unseen: bool,
@@ -34,6 +36,7 @@ impl Grid {
             block_keys: Vec::new(),
             tile_of: HashMap::new(),
             bodies,
+            rows: Vec::new(),
             present,
             unseen: true,
         }
@@ -147,8 +150,17 @@ impl Grid {
         shifts: &[([f64; 3], bool)],
         integrator: &Integrator,
     ) {
+        let low = self.blocks.iter().map(|block| block.origin[1]);
+        let nodes = low.clone().min().unwrap_or(0)..low.max().unwrap_or(0) + EDGE as i32;
+        self.rows.resize_with(parts.len(), Rows::default);
+        for ((rows, parts), &(shift, _)) in self.rows.iter_mut().zip(parts).zip(shifts) {
+            if !rows.are_of(shift, &nodes) {
+                *rows = Rows::new(parts, shift, nodes.clone(), integrator);
+            }
+        }
+        let rows = &self.rows;
         let changed = (self.blocks.par_iter_mut())
-            .map(|block| see(block, parts, shifts, integrator))
+            .map(|block| see(block, parts, shifts, rows, integrator))
             .reduce(|| false, |a, b| a | b);
         if changed || self.unseen {
             self.unseen = false;
@@ -193,6 +205,7 @@ fn see(
     block: &mut Block,
     parts: &[Vec<BlockShape>],
     shifts: &[([f64; 3], bool)],
+    rows: &[Rows],
     integrator: &Integrator,
 ) -> bool {
     let mut changed = false;
@@ -210,7 +223,7 @@ fn see(
             }
             Some(_) => {}
         }
-        block.walls[body].update(parts, block.origin, shift, moves, integrator);
+        block.walls[body].update(&rows[body], block.origin, moves);
     }
     changed
 }

@@ -10,6 +10,8 @@
 mod block;
 mod integrals;
 
+use std::ops::Range;
+
 use crate::lanes::Lanes8;
 use crate::lattice::{EDGE, block_index};
 use crate::real::Real;
@@ -29,6 +31,42 @@ struct Columns {
     layers: usize,
     /// Column (z * 4 + x), layer: sums of w w, g_x w_z, w_x g_z, m_x w_z, w_x m_z.
     sums: Vec<[Real; 5]>,
+}
+
+/// Integrals along y over the voxels of a displaced body for rows of nodes, which all blocks of these rows share.
+#[derive(Default)]
+pub(crate) struct Rows {
+    /// Displacement (cells).
+    shift: [f64; 3],
+    nodes: Range<i32>,
+    /// Of each part of the body, by row: which layer, and the factors of its lateral sums.
+    factors: Vec<Vec<Vec<(usize, Lanes8)>>>,
+}
+
+impl Rows {
+    pub(crate) fn new(
+        parts: &[BlockShape],
+        shift: [f64; 3],
+        nodes: Range<i32>,
+        integrator: &Integrator,
+    ) -> Self {
+        let factors = |Slice { index, w, g, m }| (index, Lanes8([w, w, g, w, w, m, w, 0.0]));
+        let row = |part, y| {
+            let slices = integrator.slices(part, 1, y, shift[1], 0.0);
+            slices.into_iter().map(factors).collect()
+        };
+        let rows = |part| nodes.clone().map(|y| row(part, y)).collect();
+        Self {
+            shift,
+            factors: parts.iter().map(rows).collect(),
+            nodes,
+        }
+    }
+
+    /// Whether they are those of this displacement and of all these nodes.
+    pub(crate) fn are_of(&self, shift: [f64; 3], nodes: &Range<i32>) -> bool {
+        self.shift == shift && self.nodes == *nodes
+    }
 }
 
 /// A body near a block of nodes.
@@ -77,46 +115,26 @@ impl NearBody {
             || (shift[1] - self.built_at[1]).abs() > MARGIN
     }
 
-    /// Brings the nodal values to the displacement `shift` (cells), for good where the body never moves: its
-    /// lateral sums are then let go.
-    pub(crate) fn update(
-        &mut self,
-        parts: &[BlockShape],
-        origin: [i32; 3],
-        shift: [f64; 3],
-        moves: bool,
-        integrator: &Integrator,
-    ) {
-        if self.columns.is_empty() || self.values_at == shift {
+    /// Brings the nodal values to the displacement of `rows`, for good where the body never moves: its lateral sums
+    /// are then let go.
+    pub(crate) fn update(&mut self, rows: &Rows, origin: [i32; 3], moves: bool) {
+        if self.columns.is_empty() || self.values_at == rows.shift {
             return;
         }
-        self.values_at = shift;
+        self.values_at = rows.shift;
         self.values.fill(Lanes8::ZERO);
+        let first = (origin[1] - rows.nodes.start) as usize;
         for columns in &self.columns {
-            for y in 0..EDGE {
-                let slices =
-                    integrator.slices(&parts[columns.part], 1, origin[1] + y as i32, shift[1], 0.0);
-                for (column, sums) in columns.sums.chunks_exact(columns.layers).enumerate() {
-                    let (x, z) = (column % EDGE, column / EDGE);
-                    let value = &mut self.values[(z * EDGE + y) * EDGE + x].0;
-                    for slice in &slices {
-                        let Some(layer) = slice.index.checked_sub(columns.first_layer) else {
-                            continue;
-                        };
-                        let Some([w, gx, gz, mx, mz]) = sums.get(layer) else {
-                            continue;
-                        };
-                        let add = [
-                            slice.w * w,
-                            slice.w * gx,
-                            slice.g * w,
-                            slice.w * gz,
-                            slice.w * mx,
-                            slice.m * w,
-                            slice.w * mz,
-                        ];
-                        for (v, a) in value.iter_mut().zip(add) {
-                            *v += a;
+            let rows = &rows.factors[columns.part][first..][..EDGE];
+            for (column, sums) in columns.sums.chunks_exact(columns.layers).enumerate() {
+                let (x, z) = (column % EDGE, column / EDGE);
+                for (y, row) in rows.iter().enumerate() {
+                    let value = &mut self.values[(z * EDGE + y) * EDGE + x];
+                    for (index, factors) in row {
+                        let layer = index.wrapping_sub(columns.first_layer);
+                        if let Some(&[w, gx, gz, mx, mz]) = sums.get(layer) {
+                            let lateral = Lanes8([w, gx, w, gz, mx, w, mz, 0.0]);
+                            *value = value.plus::<false>(factors.times::<false>(lateral));
                         }
                     }
                 }
@@ -258,11 +276,12 @@ mod tests {
         let parts = [block];
         let origin = [4, 4, 4];
         let mut near = NearBody::new(&parts, origin, [0.0; 3], &integrator);
+        let rows = |shift| Rows::new(&parts, shift, 4..8, &integrator);
         let mut worst = 0.0_f64;
         for dy in [0.0, -0.13, -0.37, -0.49] {
             let shift = [0.0, dy, 0.0];
             assert!(!near.is_stale(shift));
-            near.update(&parts, origin, shift, true, &integrator);
+            near.update(&rows(shift), origin, true);
             for i in 0..64 {
                 let local = crate::lattice::block_node(i);
                 let node = [0, 1, 2].map(|a| origin[a] + local[a]);
@@ -275,7 +294,7 @@ mod tests {
         let moved = near.values.clone();
         let mut fixed = NearBody::new(&parts, origin, near.values_at, &integrator);
         for _ in 0..2 {
-            fixed.update(&parts, origin, near.values_at, false, &integrator);
+            fixed.update(&rows(near.values_at), origin, false);
             assert!(fixed.columns.is_empty() && fixed.values.len() == moved.len());
         }
         println!("largest difference of volume, gradient and moment: {worst:e}");
