@@ -12,10 +12,10 @@ pub(crate) struct Edge {
     pub(crate) next: u32,
     /// The faces across, between the low pores of both and between the high pores of both.
     pub(crate) across: [u32; 2],
-    /// Part of the edge of a cell that they share, negative where the next face lies on the low side.
-    part: f32,
     /// Factor by re-entrant edges, in cells as high as wide.
     factor: f32,
+    /// Voxels along the edge that they share, negative where the next face lies on the low side.
+    shared: i8,
     /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
     open: [u8; 2],
     /// The same of the faces across, along the axis of the face.
@@ -36,7 +36,7 @@ impl Edge {
         let along = (u[self.next as usize] - u[face]) / apart(self.open, [f.low, next.low], self.t);
         let [low, high] = self.across.map(|face| u[face as usize]);
         let across = (high - low) / apart(self.aside, [f.low, f.high], f.axis);
-        (along * f64::from(self.part.signum()) + across).abs()
+        (along * f64::from(self.shared.signum()) + across).abs()
     }
 
     /// The axis that it lies along.
@@ -50,12 +50,13 @@ impl Edge {
         let f = mesh.faces[face];
         let (axis, t) = (usize::from(f.axis), usize::from(self.t));
         let edge = |pore: u32, a: usize| mesh.edge(pore as usize, a);
-        let [own, other] = self.open.map(|voxels| f64::from(voxels) / mesh.k as f64);
+        let [own, other] = self.open.map(f64::from);
         let next = mesh.faces[self.next as usize].low;
         let distance = 0.5 * (own * edge(f.low, t) + other * edge(next, t));
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
         let across = edge(f.low, 3 - axis - t);
         let lowest = match self.axis(mesh, face) {
+            _ if self.factor == 1.0 => 1.0,
             1 => 1.0,
             _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
         };
@@ -63,9 +64,10 @@ impl Edge {
             1.0 => f64::from(self.factor),
             lowest => f64::from(self.factor).powf(lowest),
         };
-        let part = f64::from(self.part.abs());
-        let shear = factor * part * across * height / distance;
-        [shear, f64::from(self.part) * across]
+        let shared = f64::from(self.shared);
+        // Voxels over voxels.
+        let shear = factor * shared.abs() * across * height / distance;
+        [shear, shared / mesh.k as f64 * across]
     }
 }
 
@@ -179,14 +181,14 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
         for up in [false, true] {
             let first = found.len();
             for r in 0..mesh.k {
-                let Some(edge) = edge((mesh, lattice), (face, clear), t, up, r) else {
+                let Some(edge) = edge(mesh, (face, clear), t, up, r) else {
                     continue;
                 };
                 match found[first..]
                     .iter_mut()
                     .find(|other| key(other) == key(&edge))
                 {
-                    Some(other) => other.part += edge.part,
+                    Some(other) => other.shared += edge.shared,
                     None => found.push(edge),
                 }
             }
@@ -195,13 +197,7 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
 }
 
 /// The edge at one side of column `r` of a face along `t`, of a face that is `clear` of walls or not.
-fn edge(
-    (mesh, lattice): (&Mesh, &Lattice),
-    (face, clear): (usize, bool),
-    t: usize,
-    up: bool,
-    r: usize,
-) -> Option<Edge> {
+fn edge(mesh: &Mesh, (face, clear): (usize, bool), t: usize, up: bool, r: usize) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
@@ -246,18 +242,16 @@ fn edge(
         at[t] = near;
         at
     };
-    let reentrant =
-        |half: usize| mesh.reentrant(lattice, (cells[half], own_voxel(half)), [t, across], up);
+    let reentrant = |half: usize| mesh.reentrant((cells[half], own_voxel(half)), [t, across], up);
     let factor = match clear {
         true => 1.0,
         false => (0.5 * (0..2).map(reentrant).sum::<f64>()).exp(),
     };
-    let part = 1.0 / k as f32;
     Some(Edge {
         next: next as u32,
         across: [beside_low as u32, beside_high as u32],
-        part: if up { part } else { -part },
         factor: factor as f32,
+        shared: if up { 1 } else { -1 },
         open: [own, height(next, t, far)],
         aside: [
             height(beside_low, axis, k - 1),
