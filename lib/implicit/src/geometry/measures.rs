@@ -56,9 +56,12 @@ impl Mesh {
         if axis == 1 { self.height(pore) } else { 1.0 }
     }
 
-    /// Edges of a cell along x, y, z, cells.
-    pub(crate) fn edges(&self, cell: usize) -> [f64; 3] {
-        [1.0, self.measures.heights[self.row(cell)][0], 1.0]
+    /// Edge of a cell along an axis, cells.
+    pub(crate) fn cell_edge(&self, cell: usize, axis: usize) -> f64 {
+        match axis {
+            1 => self.measures.heights[self.row(cell)][0],
+            _ => 1.0,
+        }
     }
 
     /// Volume of a pore, cells.

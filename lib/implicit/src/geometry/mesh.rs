@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use physics::Boundary;
 
-use super::lattice::{Lattice, OPEN};
+use super::lattice::Lattice;
 use super::measures::Measures;
 use super::region::Region;
 use super::rows::Rows;
@@ -71,6 +71,8 @@ pub(crate) struct Mesh {
     pub(crate) boundary: [Boundary; 3],
     pub(crate) pores: Vec<Pore>,
     pub(crate) faces: Vec<Face>,
+    /// What fills each voxel of each cell.
+    pub(super) codes: Vec<u8>,
     /// First pore of each cell, and one more.
     pore_start: Vec<u32>,
     /// First face of each cell towards x, y, z, and one more.
@@ -115,14 +117,18 @@ impl Mesh {
             boundary: lattice.boundary,
             pores: Vec::new(),
             faces: Vec::new(),
+            codes: Vec::new(),
             pore_start: Vec::with_capacity(cells + 1),
             face_start: Vec::with_capacity(3 * cells + 1),
             sides: Vec::new(),
             side_start: Vec::new(),
         };
+        let k3 = mesh.k.pow(3);
+        let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
+        mesh.codes = (0..k3 * cells).map(code).collect();
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
-            let (open, row) = (mesh.open_voxels(lattice, cell), mesh.row(cell) as u32);
+            let (open, row) = (mesh.open_voxels(cell), mesh.row(cell) as u32);
             mesh.pores
                 .extend(connected(open, mesh.k).map(|voxels| Pore {
                     cell: cell as u32,
@@ -173,13 +179,6 @@ impl Mesh {
             }
         }
         self.side_start.push(self.sides.len() as u32);
-    }
-
-    fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
-        (0..self.k.pow(3))
-            .filter(|_| self.region.holds(cell))
-            .filter(|&bit| self.lattice_code(lattice, cell, self.voxel(bit)) == OPEN)
-            .fold(0, |open, bit| open | 1 << bit)
     }
 
     /// Adds the faces between the pores of two cells.
@@ -244,7 +243,11 @@ impl Mesh {
     pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let [nx, ny, _] = self.size;
         let (n, stride) = (self.size[axis], [1, nx, nx * ny][axis]);
-        let at = cell / stride % n;
+        let at = match axis {
+            0 => cell % nx,
+            1 => cell / nx % ny,
+            _ => cell / (nx * ny),
+        };
         match up {
             true if at + 1 < n => Some(cell + stride),
             false if at > 0 => Some(cell - stride),
@@ -312,7 +315,7 @@ impl Mesh {
 
     /// The pore of a cell that holds a voxel.
     pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
-        let bit = voxel[0] + self.k * (voxel[1] + self.k * voxel[2]);
+        let bit = self.bit(voxel);
         self.pores_of(cell)
             .find(|&pore| self.pores[pore].voxels >> bit & 1 == 1)
     }
@@ -324,6 +327,9 @@ impl Mesh {
 
     /// Whether a cell lies beyond an open side.
     pub(crate) fn is_beyond(&self, cell: usize) -> bool {
+        if !self.boundary.contains(&Boundary::Open) {
+            return false;
+        }
         let place = self.place(cell);
         let across =
             |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);

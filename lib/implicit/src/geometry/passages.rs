@@ -46,7 +46,8 @@ impl View<'_> {
     /// At a voxel, 1/voxels. In plane strain the passage is as deep as can be. A width is a voxel at least: no image shows less,
     /// and a gap that closes would pull without limit.
     fn at(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
-        let Some(place) = self.mesh.lattice_place(self.lattice, cell, voxel) else {
+        let place = self.mesh.place(cell);
+        let Some(place) = self.mesh.lattice_place(self.lattice, place, voxel) else {
             return 0.0;
         };
         let axes = if self.lattice.flat { 2 } else { 3 };

@@ -16,14 +16,13 @@ const REENTRANT: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 type At = (usize, [usize; 3]);
 
 impl Mesh {
-    /// Where in the lattice a voxel of a cell lies; `None` beyond the layers of a part or an open side.
+    /// Where in the lattice a voxel of the cell at a place lies; `None` beyond the layers of a part or an open side.
     pub(crate) fn lattice_place(
         &self,
         lattice: &Lattice,
-        cell: usize,
+        [x, y, z]: [usize; 3],
         voxel: [usize; 3],
     ) -> Option<Place> {
-        let [x, y, z] = self.place(cell);
         let across = lattice.across();
         let sub = |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.beyond[a] * self.k);
         let (x, z) = (sub(x, 0)?, sub(z, 2)?);
@@ -61,18 +60,27 @@ impl Mesh {
         open >> (at[s] + self.k * at[t]) & 1 == 1
     }
 
-    /// What fills a voxel of a cell.
-    pub(crate) fn code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
-        // Pores say so sooner than the lattice.
-        match self.region.holds(cell) && self.pore_with(cell, voxel).is_some() {
-            true => OPEN,
-            false => self.lattice_code(lattice, cell, voxel),
-        }
+    /// The bit of the voxel at a place in its cell.
+    pub(super) fn bit(&self, [x, y, z]: [usize; 3]) -> usize {
+        x + self.k * (y + self.k * z)
     }
 
-    /// The same by the lattice alone.
+    /// Open voxels of a cell of the region.
+    pub(super) fn open_voxels(&self, cell: usize) -> u8 {
+        (0..self.k.pow(3))
+            .filter(|_| self.region.holds(cell))
+            .filter(|&bit| self.code(cell, self.voxel(bit)) == OPEN)
+            .fold(0, |open, bit| open | 1 << bit)
+    }
+
+    /// What fills a voxel of a cell.
+    pub(crate) fn code(&self, cell: usize, voxel: [usize; 3]) -> u8 {
+        self.codes[self.k.pow(3) * cell + self.bit(voxel)]
+    }
+
+    /// What fills a voxel of a cell, by the lattice.
     pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
-        match self.lattice_place(lattice, cell, voxel) {
+        match self.lattice_place(lattice, self.place(cell), voxel) {
             Some(Place::Below(layer, at)) => lattice.below[layer][at],
             Some(Place::Gap(at)) => lattice.gap[at],
             Some(Place::Above(layer, at)) => lattice.above[layer][at],
@@ -101,17 +109,11 @@ impl Mesh {
 
     /// Logarithm of the factor of friction and exchange between an open voxel and the one next to it along the first of two
     /// axes, by re-entrant edges of walls at either side of them along the second, in cells as high as wide.
-    pub(crate) fn reentrant(
-        &self,
-        lattice: &Lattice,
-        at: At,
-        [t, across]: [usize; 2],
-        up: bool,
-    ) -> f64 {
+    pub(crate) fn reentrant(&self, at: At, [t, across]: [usize; 2], up: bool) -> f64 {
         let mut sum = 0.0;
         for side in [false, true] {
             let step = |at: At, axis: usize, up: bool| self.next_voxel(at.0, at.1, axis, up);
-            let wall = |at: At| self.is_wall(lattice, at);
+            let wall = |at: At| self.is_wall(at);
             // Beyond a mirror is no edge.
             let Some(beside) = step(at, across, side) else {
                 continue;
@@ -149,21 +151,15 @@ impl Mesh {
     }
 
     /// Whether a voxel is solid; `None` beyond a mirror.
-    fn is_wall(&self, lattice: &Lattice, (cell, voxel): At) -> Option<bool> {
-        let code = self.code(lattice, cell, voxel);
+    fn is_wall(&self, (cell, voxel): At) -> Option<bool> {
+        let code = self.code(cell, voxel);
         (code != MIRROR).then_some(code != OPEN)
     }
 
     /// How near a wall at an open voxel along the first of two axes ends in a step along the second: 1 within a cell, 0 from
     /// one and a half on.
-    pub(crate) fn beside_steps(
-        &self,
-        lattice: &Lattice,
-        start: At,
-        [t, across]: [usize; 2],
-        up: bool,
-    ) -> f64 {
-        let is_wall = |at: At| self.is_wall(lattice, at);
+    pub(crate) fn beside_steps(&self, start: At, [t, across]: [usize; 2], up: bool) -> f64 {
+        let is_wall = |at: At| self.is_wall(at);
         let mut nearest = f64::INFINITY;
         for side in [false, true] {
             let mut at = start;

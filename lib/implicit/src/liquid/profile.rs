@@ -164,13 +164,14 @@ impl Profile<'_> {
         for face in mesh.faces_at(pore, axis, up) {
             let mut departures = [0.0; 4];
             for (&t, other) in across.iter().zip([across[1], across[0]]) {
-                for place in 0..if self.lattice.flat && t == 2 { 0 } else { k } {
+                let counts = self.moves(face) && !(self.lattice.flat && t == 2);
+                for place in 0..if counts { k } else { 0 } {
                     let mut voxel = [0; 3];
                     voxel[axis] = if up { k - 1 } else { 0 };
                     voxel[other] = place;
-                    for (at, departure) in self.departures(face, pore, voxel, t) {
+                    self.add_departures(face, pore, voxel, t, |at, departure| {
                         departures[at[across[0]] + k * at[across[1]]] += departure;
-                    }
+                    });
                 }
             }
             for (place, own) in side.iter_mut().enumerate() {
@@ -182,39 +183,34 @@ impl Profile<'_> {
         side
     }
 
-    /// What the velocities in the middles of the voxels of a face's column along `t` differ by from the column's mean.
-    fn departures(
+    /// Adds what the velocities in the middles of the voxels of a face's column along `t` differ by from the column's mean.
+    fn add_departures(
         &self,
         face: usize,
         pore: usize,
         mut voxel: [usize; 3],
         t: usize,
-    ) -> impl Iterator<Item = ([usize; 3], f64)> {
+        mut add: impl FnMut([usize; 3], f64),
+    ) {
         let mesh = self.mesh;
-        let edge = mesh.edges(mesh.cell(pore))[t] / mesh.k as f64;
-        let ends = (self.column(face, voxel, t)).filter(|_| self.moves(face));
-        let parabola = ends.map(|[first, last]| {
-            let height = edge * (last + 1 - first) as f64;
-            let sides = [(first, false), (last, true)].map(|(i, up)| {
-                let mut end = voxel;
-                end[t] = i;
-                self.side(face, pore, end, t, up, height)
-            });
-            ((first, last), height, parabola(sides))
+        let edge = mesh.edge(pore, t) / mesh.k as f64;
+        let Some([first, last]) = self.column(face, voxel, t) else {
+            return;
+        };
+        let height = edge * (last + 1 - first) as f64;
+        let sides = [(first, false), (last, true)].map(|(i, up)| {
+            let mut end = voxel;
+            end[t] = i;
+            self.side(face, pore, end, t, up, height)
         });
-        parabola
-            .into_iter()
-            .flat_map(move |((first, last), height, [slope, curvature])| {
-                (first..=last).map(move |i| {
-                    voxel[t] = i;
-                    let middle = 0.5 * (first + last + 1) as f64;
-                    let y = edge * (i as f64 + 0.5 - middle);
-                    (
-                        voxel,
-                        slope * y + curvature * (y * y - height * height / 12.0),
-                    )
-                })
-            })
+        let [slope, curvature] = parabola(sides);
+        let middle = 0.5 * (first + last + 1) as f64;
+        for i in first..=last {
+            voxel[t] = i;
+            let y = edge * (i as f64 + 0.5 - middle);
+            let departure = slope * y + curvature * (y * y - height * height / 12.0);
+            add(voxel, departure);
+        }
     }
 
     /// The first and the last of the voxels along `t` through `voxel` that a face is open to, if it is to any.
@@ -243,17 +239,18 @@ impl Profile<'_> {
         let (f, cell) = (mesh.faces[face], mesh.cell(pore));
         let axis = usize::from(f.axis);
         let own = self.velocity[face];
-        let Some((beside, next)) = mesh.next_voxel(cell, voxel, t, up) else {
-            return Side::free(height);
-        };
-        let open = match beside == cell {
-            true => mesh.pore_with(cell, next),
-            false => {
+        // The one of the two along `t`, in this cell or beyond its side.
+        let mut next = voxel;
+        next[t] = mesh.k - 1 - voxel[t];
+        let open = match voxel[t] == if up { mesh.k - 1 } else { 0 } {
+            false => mesh.pore_with(cell, next),
+            true => {
                 (self.face(pore, voxel, t, up)).map(|face| mesh.faces[face].ends()[usize::from(up)])
             }
         };
         let Some(open) = open else {
-            let code = mesh.code(self.lattice, beside, next);
+            let code = (mesh.next_voxel(cell, voxel, t, up))
+                .map_or(MIRROR, |(cell, at)| mesh.code(cell, at));
             let length = self.influence_length;
             let is_wall = code != OPEN && code != MIRROR && length.is_finite();
             return match is_wall {
@@ -265,7 +262,7 @@ impl Profile<'_> {
         let Some(other) = other.filter(|&other| other != face && self.moves(other)) else {
             return Side::free(height);
         };
-        let edge = mesh.edges(beside)[t] / mesh.k as f64;
+        let edge = mesh.edge(open, t) / mesh.k as f64;
         let [first, last] = self.column(other, next, t).unwrap_or([next[t]; 2]);
         let beyond = edge * (last + 1 - first) as f64;
         Side::column(height, beyond, self.velocity[other] - own)

@@ -22,7 +22,7 @@ impl Implicit {
             }
             shown.push(pore);
             let cell = mesh.cell(pore);
-            let (at, edges) = (mesh.place(cell), mesh.edges(cell));
+            let at = mesh.place(cell);
             let low = [
                 at[0] as f64 - mesh.beyond[0] as f64,
                 mesh.rows().low(mesh.row(cell)),
@@ -30,7 +30,8 @@ impl Implicit {
             ];
             for voxel in mesh.voxels(pore) {
                 state.position.push(std::array::from_fn(|a| {
-                    let cells = low[a] + edges[a] * (voxel[a] as f64 + 0.5) / mesh.k as f64;
+                    let cells =
+                        low[a] + mesh.edge(pore, a) * (voxel[a] as f64 + 0.5) / mesh.k as f64;
                     (place.origin_m[a] + place.cell_m * cells) as f32
                 }));
                 state.volume.push((volume * place.cell_m.powi(3)) as f32);

@@ -83,7 +83,8 @@ impl Problem<'_> {
 
     /// Friction of the walls at a face, in its low and its high half.
     pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
-        let (parts, eta) = (self.halves[face], self.viscosities.walls[face]);
+        let parts = self.halves[face];
+        let eta = self.viscosities.at_walls(face, self.ends(face));
         [parts[0] * eta[0], parts[1] * eta[1]]
     }
 
@@ -100,11 +101,7 @@ impl Problem<'_> {
         let weights = self.wall_weights(face);
         let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
         let drag = self.fronts.drag.get(face).copied().unwrap_or_default();
-        entries.add(
-            row,
-            friction + drag + self.scales.inertia * self.masses[face] + FREE,
-        );
-        self.add_slowing(face, entries);
+        let mut own = friction + drag + self.scales.inertia * self.masses[face] + FREE;
         let number = |face: usize| self.unknowns.face(face);
         for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
             let stiffness = self.stiffness(pore);
@@ -114,10 +111,10 @@ impl Problem<'_> {
             stretching(self.mesh, face, up, |pull| {
                 let weight = stiffness * pull.weight;
                 match pull.other.map(number) {
-                    None => entries.add(row, weight),
+                    None => own += weight,
                     Some(None) => {}
                     Some(Some(other)) => {
-                        entries.add(row, weight);
+                        own += weight;
                         entries.add(other, -weight);
                     }
                 }
@@ -127,22 +124,24 @@ impl Problem<'_> {
             let Some(next) = number(edge.next as usize) else {
                 continue;
             };
-            let own = (self.viscosities.edges)
+            let thick = (self.viscosities.edges)
                 .get(self.edges.first(face) + index)
                 .copied()
                 .unwrap_or(1.0);
-            let eta = own * self.edge_stiffness([face, edge.next as usize]);
+            let eta = thick * self.edge_stiffness([face, edge.next as usize]);
             let [shear, length] = edge.measured(self.mesh, face);
-            entries.add(row, eta * shear);
+            own += eta * shear;
             entries.add(next, -eta * shear);
             let across = edge.across.map(|face| face as usize);
             if let [Some(low), Some(high)] = across.map(number) {
                 // Where a surface crosses the edge, the faces across share less or more liquid.
-                let weight = eta.min(own * self.edge_stiffness(across)) * length;
+                let weight = eta.min(thick * self.edge_stiffness(across)) * length;
                 entries.add(high, -weight);
                 entries.add(low, weight);
             }
         }
+        entries.add(row, own);
+        self.add_slowing(face, entries);
     }
 
     /// Right-hand sides of the momenta, each of all faces with a velocity: known, per closing speed, and the part of what is known
@@ -167,7 +166,7 @@ impl Problem<'_> {
         let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
         let link = self.links.of(face);
         let weights = self.wall_weights(face);
-        let etas = self.viscosities.walls[face];
+        let etas = self.viscosities.at_walls(face, f.ends());
         for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(link.sliding) {
             force[0] += weight * own;
             force[1] += weight * closing;

@@ -12,10 +12,10 @@ pub(crate) struct Edge {
     pub(crate) next: u32,
     /// The faces across, between the low pores of both and between the high pores of both.
     pub(crate) across: [u32; 2],
-    /// Part of the edge of a cell that they share, negative where the next face lies on the low side.
-    part: f32,
     /// Factor by re-entrant edges, in cells as high as wide.
     factor: f32,
+    /// Voxels along the edge that they share, negative where the next face lies on the low side.
+    shared: i8,
     /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
     open: [u8; 2],
     /// The same of the faces across, along the axis of the face.
@@ -32,7 +32,7 @@ impl Edge {
             (u[self.next as usize] - u[face]) / apart(mesh, self.open, [f.low, next.low], self.t);
         let [low, high] = self.across.map(|face| u[face as usize]);
         let across = (high - low) / apart(mesh, self.aside, [f.low, f.high], f.axis);
-        (along * f64::from(self.part.signum()) + across).abs()
+        (along * f64::from(self.shared.signum()) + across).abs()
     }
 
     /// The axis that it lies along.
@@ -51,6 +51,7 @@ impl Edge {
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
         let length = edge(f.low, along);
         let lowest = match along {
+            _ if self.factor == 1.0 => 1.0,
             1 => 1.0,
             _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
         };
@@ -58,9 +59,9 @@ impl Edge {
             1.0 => f64::from(self.factor),
             lowest => f64::from(self.factor).powf(lowest),
         };
-        let part = f64::from(self.part.abs());
-        let shear = factor * part * length * height / distance;
-        [shear, f64::from(self.part) * length]
+        let shared = f64::from(self.shared) / mesh.k as f64;
+        let shear = factor * shared.abs() * length * height / distance;
+        [shear, shared * length]
     }
 }
 
@@ -181,14 +182,14 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
         for up in [false, true] {
             let first = found.len();
             for r in 0..mesh.k {
-                let Some(edge) = edge((mesh, lattice), (face, clear), t, up, r) else {
+                let Some(edge) = edge(mesh, (face, clear), t, up, r) else {
                     continue;
                 };
                 match found[first..]
                     .iter_mut()
                     .find(|other| key(other) == key(&edge))
                 {
-                    Some(other) => other.part += edge.part,
+                    Some(other) => other.shared += edge.shared,
                     None => found.push(edge),
                 }
             }
@@ -197,13 +198,7 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
 }
 
 /// The edge at one side of column `r` of a face along `t`, of a face that is `clear` of walls or not.
-fn edge(
-    (mesh, lattice): (&Mesh, &Lattice),
-    (face, clear): (usize, bool),
-    t: usize,
-    up: bool,
-    r: usize,
-) -> Option<Edge> {
+fn edge(mesh: &Mesh, (face, clear): (usize, bool), t: usize, up: bool, r: usize) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
@@ -248,18 +243,16 @@ fn edge(
         at[t] = near;
         at
     };
-    let reentrant =
-        |half: usize| mesh.reentrant(lattice, (cells[half], own_voxel(half)), [t, across], up);
+    let reentrant = |half: usize| mesh.reentrant((cells[half], own_voxel(half)), [t, across], up);
     let factor = match clear {
         true => 1.0,
         false => (0.5 * (0..2).map(reentrant).sum::<f64>()).exp(),
     };
-    let part = 1.0 / k as f32;
     Some(Edge {
         next: next as u32,
         across: [beside_low as u32, beside_high as u32],
-        part: if up { part } else { -part },
         factor: factor as f32,
+        shared: if up { 1 } else { -1 },
         open: [own, height(next, t, far)],
         aside: [
             height(beside_low, axis, k - 1),

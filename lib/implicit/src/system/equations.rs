@@ -48,7 +48,7 @@ impl Equations {
         }
         for forces in [&mut standing, &mut clinging] {
             if forces.iter().all(|&force| force == 0.0) {
-                forces.clear();
+                *forces = Vec::new();
             }
         }
         let of_pores = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {

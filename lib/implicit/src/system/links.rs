@@ -31,12 +31,22 @@ impl Links {
     pub(crate) fn new(channels: &Channels, kept: &Kept, old: &Self) -> Self {
         let mesh = channels.mesh;
         let (inner, clear) = (mesh.inner_faces(), mesh.clear_cells());
+        let moving = channels.lattice.moving.is_some();
         let link = |face: usize| {
             let old = kept.whole(face).map(|face| old.0[face]);
-            match old.filter(|link| !link.by_gap) {
-                Some(link) => link,
-                None if inner[face] => channels.link(face, mesh.is_clear(face, &clear)),
-                None => Link::default(),
+            if let Some(old) = old.filter(|link| !link.by_gap) {
+                return old;
+            }
+            let (clear, by_gap) = (mesh.is_clear(face, &clear), channels.by_gap(face));
+            match inner[face] {
+                false => Link::default(),
+                // It is measured before it is used.
+                true if moving && by_gap => Link {
+                    by_gap,
+                    walled: !clear,
+                    ..Link::default()
+                },
+                true => channels.link(face, clear, by_gap),
             }
         };
         Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
@@ -47,7 +57,7 @@ impl Links {
         self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
             let mut ends = channels.mesh.faces[face].ends().into_iter();
             if link.by_gap && ends.any(|pore| fractions[pore] > 0.0) {
-                *link = channels.link(face, !link.walled);
+                *link = channels.link(face, !link.walled, true);
             }
         });
     }
@@ -71,13 +81,27 @@ struct Column {
 }
 
 impl Channels<'_> {
-    /// The link of a face that is `clear` of walls or not.
-    fn link(&self, face: usize, clear: bool) -> Link<f32> {
+    /// Whether the height of the gap is part of the link of a face.
+    fn by_gap(&self, face: usize) -> bool {
+        let mesh = self.mesh;
+        let through = |pore: usize| {
+            let place = mesh.place(mesh.cell(pore));
+            let voxels = mesh.voxels(pore);
+            voxels
+                .filter_map(|voxel| mesh.lattice_place(self.lattice, place, voxel))
+                .any(|place| self.chords.through_gap(place))
+        };
+        mesh.is_by_gap(face) || mesh.faces[face].ends().into_iter().any(through)
+    }
+
+    /// The link of a face that is `clear` of walls or not, and `by_gap` or not.
+    fn link(&self, face: usize, clear: bool, by_gap: bool) -> Link<f32> {
         let mut link = Link::<f64> {
-            by_gap: self.mesh.is_by_gap(face),
+            by_gap,
             ..Link::default()
         };
         let f = self.mesh.faces[face];
+        let places = f.ends().map(|pore| self.mesh.place(self.mesh.cell(pore)));
         let axis = usize::from(f.axis);
         if self.influence_length.is_infinite() {
             return link.with(|value| value as f32);
@@ -87,14 +111,20 @@ impl Channels<'_> {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column((face, clear), t, r, &mut link);
+                self.column((face, clear), places, (t, r), &mut link);
             }
         }
         link.with(|value| value as f32)
     }
 
-    /// Adds the walls at both ends along `t` of column `r` of a face.
-    fn column(&self, (face, clear): (usize, bool), t: usize, r: usize, link: &mut Link) {
+    /// Adds the walls at both ends along `t` of column `r` of a face between cells at two places.
+    fn column(
+        &self,
+        (face, clear): (usize, bool),
+        places: [[usize; 3]; 2],
+        (t, r): (usize, usize),
+        link: &mut Link,
+    ) {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
         let axis = usize::from(f.axis);
@@ -119,7 +149,7 @@ impl Channels<'_> {
                 true => OPEN,
                 false => mesh
                     .next_voxel(cells[half], voxel(half, i), t, up)
-                    .map_or(MIRROR, |(cell, at)| mesh.code(self.lattice, cell, at)),
+                    .map_or(MIRROR, |(cell, at)| mesh.code(cell, at)),
             })
         });
         let walled = both.as_flattened().iter().any(|&code| is_wall(code));
@@ -127,9 +157,8 @@ impl Channels<'_> {
         for (half, cell) in cells.into_iter().enumerate() {
             let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
-            let place = mesh.lattice_place(self.lattice, cell, voxel(half, first));
+            let place = mesh.lattice_place(self.lattice, places[half], voxel(half, first));
             let width = |a: usize| self.width(place, a) / edges[t];
-            link.by_gap |= place.is_some_and(|place| self.chords.through_gap(place));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;
             let along = width(t);
             link.narrowness += part / (along * along * edges[t] * edges[t]);
@@ -147,7 +176,7 @@ impl Channels<'_> {
                     .neighbour(cell, t, up)
                     .filter(|_| open && is_wall(code))
                 {
-                    let apart = 0.5 * (column.height * edges[t] + mesh.edges(next)[t]);
+                    let apart = 0.5 * (column.height * edges[t] + mesh.cell_edge(next, t));
                     link.add(half, part / apart, self.sliding(code, face, axis));
                 }
             }
@@ -157,14 +186,14 @@ impl Channels<'_> {
             let between = ends.iter().all(|&code| is_wall(code));
             for (code, (i, up)) in ends.into_iter().zip(corner).filter(|end| is_wall(end.0)) {
                 let at = (cell, voxel(half, i));
-                let near = mesh.beside_steps(self.lattice, at, [t, across], up);
+                let near = mesh.beside_steps(at, [t, across], up);
                 let distance = edges[t] * self.distance(&column, between, near);
                 let lowest = if axis == 1 {
                     1.0
                 } else {
                     mesh.lowest(f.low as usize)
                 };
-                let factor = (lowest * mesh.reentrant(self.lattice, at, [t, across], up)).exp();
+                let factor = (lowest * mesh.reentrant(at, [t, across], up)).exp();
                 let friction = factor * part / (distance + self.influence_length);
                 link.add(half, friction, self.sliding(code, face, axis));
                 link.area += part;

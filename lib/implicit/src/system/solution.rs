@@ -109,7 +109,7 @@ pub(crate) fn solve(
 /// Forces on the bodies along y, over the unit of viscosity: pressure and viscous tension on walls across y, friction on
 /// those along it.
 pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
-    let (mesh, lattice) = (problem.mesh, problem.lattice);
+    let mesh = problem.mesh;
     let mut forces = vec![0.0; bodies];
     let mut push = |code: u8, force: f64| {
         if code != OPEN && code != MIRROR {
@@ -124,7 +124,7 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
         for voxel in mesh.voxels(pore) {
             for (up, sign) in [(false, -1.0), (true, 1.0)] {
                 if let Some((cell, voxel)) = mesh.next_voxel(mesh.cell(pore), voxel, 1, up) {
-                    push(mesh.code(lattice, cell, voxel), sign * p * part);
+                    push(mesh.code(cell, voxel), sign * p * part);
                 }
             }
         }
@@ -160,7 +160,7 @@ fn wall_ahead(problem: &Problem, pore: usize, up: bool) -> u8 {
     let mesh = problem.mesh;
     (mesh.voxels(pore))
         .filter_map(|voxel| mesh.next_voxel(mesh.cell(pore), voxel, 1, up))
-        .map(|(cell, voxel)| mesh.code(problem.lattice, cell, voxel))
+        .map(|(cell, voxel)| mesh.code(cell, voxel))
         .find(|&code| code != OPEN)
         .unwrap_or(OPEN)
 }

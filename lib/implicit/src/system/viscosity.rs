@@ -9,8 +9,8 @@ use super::stretching::stretching;
 use super::thinning::{steepness, thinning_distance};
 use crate::geometry::{Mesh, Way, others};
 
-/// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge, none where those of
-/// pores are one.
+/// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge; none of the latter two
+/// where they are those of the pores.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Viscosities {
     pub(crate) pores: Vec<f64>,
@@ -23,9 +23,14 @@ impl Viscosities {
     pub(crate) fn constant(mesh: &Mesh, viscosity: f64) -> Self {
         Self {
             pores: vec![viscosity; mesh.pores.len()],
-            walls: vec![[viscosity; 2]; mesh.faces.len()],
-            edges: Vec::new(),
+            ..Self::default()
         }
+    }
+
+    /// Those at the walls of the halves of a face between two pores.
+    pub(super) fn at_walls(&self, face: usize, ends: [usize; 2]) -> [f64; 2] {
+        let own = self.walls.get(face).copied();
+        own.unwrap_or_else(|| ends.map(|pore| self.pores[pore]))
     }
 
     /// Those of a flow: `factor` times the law of the liquid, in Pa s. Walls have their rate times their share, and the viscosity

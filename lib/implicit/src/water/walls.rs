@@ -24,7 +24,7 @@ impl Walls {
             for voxel in mesh.voxels(pore) {
                 for (axis, up) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
                     let beyond = mesh.next_voxel(cell, voxel, axis, up);
-                    let code = beyond.map_or(MIRROR, |(cell, at)| mesh.code(lattice, cell, at));
+                    let code = beyond.map_or(MIRROR, |(cell, at)| mesh.code(cell, at));
                     if !(lattice.flat && axis == 2) && takes(code) {
                         let part = 1.0 / (mesh.k * mesh.k) as f64;
                         areas[usize::from(axis != 1)] +=

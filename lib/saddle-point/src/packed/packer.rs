@@ -42,16 +42,22 @@ impl<'a> Packer<'a> {
         for (row, lane) in (first - self.start..self.chunk.len()).zip(&mut lanes) {
             *lane = self.chunk.row(row);
         }
-        while let Some(distance) = nearest(first, &lanes) {
+        let mut next: [i64; LANES] = std::array::from_fn(|i| next_distance(first + i, lanes[i].0));
+        loop {
+            let distance = next.into_iter().fold(i64::MAX, i64::min);
+            if distance == i64::MAX {
+                break;
+            }
             let mut values = [Fixed::default(); LANES];
             let mut members = [None; LANES];
             for (i, lane) in lanes.iter_mut().enumerate() {
-                let row = first + i;
-                if next_distance(row, lane) == Some(distance) {
+                if next[i] == distance {
+                    let row = first + i;
                     let column = lane.0[0];
                     values[i] = self.fixed_point(row, column as usize, lane.1[0])?;
                     members[i] = Some(column);
                     *lane = (&lane.0[1..], &lane.1[1..]);
+                    next[i] = next_distance(row, lane.0);
                 }
             }
             if distance == 0 {
@@ -152,15 +158,7 @@ fn nearest_integer(value: f64) -> f64 {
     value + 0.5f64.copysign(value)
 }
 
-/// Column minus row of a lane's next entry.
-fn next_distance(row: usize, lane: &(&[u32], &[f64])) -> Option<i64> {
-    lane.0.first().map(|&column| i64::from(column) - row as i64)
-}
-
-/// The least distance among the next entries of all lanes.
-fn nearest(first: usize, lanes: &[(&[u32], &[f64]); LANES]) -> Option<i64> {
-    let distances = lanes.iter().enumerate();
-    distances
-        .filter_map(|(i, lane)| next_distance(first + i, lane))
-        .min()
+/// Column minus row of a lane's next entry, the largest number where there is none.
+fn next_distance(row: usize, columns: &[u32]) -> i64 {
+    (columns.first()).map_or(i64::MAX, |&column| i64::from(column) - row as i64)
 }
