@@ -27,8 +27,8 @@ plan() {
         $1 == "memory" { memory = $2; if (memory > most) most = memory }
         $1 == "refused" { refused = $0 }
         $1 == "run" && $2 == "time" {
-            time = $5 == "a" ? 0 : $3 * seconds[$4]
-            printf "  %-44s %9s %8.0f MB\n", run, $5 == "a" ? "not known" : told(time), memory
+            time = $3 * seconds[$4]
+            printf "  %-44s %9s %8.0f MB\n", run, told(time), memory
             n++; all += time
             if (time > longest) longest = time
         }

@@ -3,8 +3,8 @@
 /// Cells that liquid crosses in a step at most, in jets too: the mesh ends two cells off the liquid.
 pub(crate) const LARGEST_CFL: f64 = 1.5;
 
-/// Part by which a volume may be off its law, and a step off the end of its travel, when passes end: the default tolerance of the
-/// solver. Nearer, steps would be solved again for what the solution does not know.
+/// Part by which a volume or a pressure may be off its law, and a step off the end of its travel, when passes end: the default
+/// tolerance of the solver. Nearer, steps would be solved again for what the solution does not know.
 pub(crate) const MISSED: f64 = 1e-3;
 
 /// Settings of the implicit scheme.

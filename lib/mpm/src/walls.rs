@@ -12,6 +12,8 @@ mod integrals;
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::lanes::Lanes8;
 use crate::lattice::{EDGE, block_index};
 use crate::real::Real;
@@ -55,7 +57,13 @@ impl Rows {
             let slices = integrator.slices(part, 1, y, shift[1], 0.0);
             slices.into_iter().map(factors).collect()
         };
-        let rows = |part| nodes.clone().map(|y| row(part, y)).collect();
+        let rows = |part| {
+            nodes
+                .clone()
+                .into_par_iter()
+                .map(|y| row(part, y))
+                .collect()
+        };
         Self {
             shift,
             factors: parts.iter().map(rows).collect(),

@@ -120,7 +120,7 @@ fn doubts(runs: &[RunFolder]) -> String {
             .collect();
         match labels.len() {
             0 => {}
-            n if n > 1 && n == runs.len() => items.push(format!("{said}: all runs.")),
+            n if n > 1 && n == runs.len() => items.push(escape(&format!("{said}: all runs."))),
             _ => items.push(escape(&format!("{said}: {}.", labels.join(", ")))),
         }
     };

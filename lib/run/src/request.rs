@@ -162,7 +162,16 @@ impl Request {
         folder.warning().into_iter().for_each(warn);
         let (clock, courant, history) = match checkpoint {
             Some(checkpoint) => self.continued(folder, checkpoint, scheme.as_mut(), &resolved)?,
-            None => self.anew(folder, mode, &resolved, &by)?,
+            None => {
+                let begun = self.anew(folder, mode, &resolved, &by)?;
+                if mode.resume {
+                    let place = folder.path().display();
+                    warn(format!(
+                        "'{place}' holds no run to continue: a new one starts"
+                    ));
+                }
+                begun
+            }
         };
         let writer = SnapshotWriter::new(folder, &self.setup, self.bond.as_ref(), by, &identity);
         let time_loop = TimeLoop {

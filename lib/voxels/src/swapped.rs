@@ -52,15 +52,17 @@ impl Segmented {
 pub fn swapped_in_file(file: &ParticleFile) -> Option<String> {
     (0..file.header().blocks.len()).find_map(|index| {
         let (block, bits) = file.block(index).ok()?;
+        if block.material != Material::Rigid {
+            return None;
+        }
         let wood = BitGrid::from_words(bits.dims(), bits.words().to_vec())?;
         let adhesive = BitGrid::new(bits.dims());
-        let rigid = block.material == Material::Rigid;
         let segmented = Segmented {
             wood,
             adhesive,
             guessed: None,
         };
-        segmented.swapped().filter(|_| rigid)
+        segmented.swapped()
     })
 }
 

@@ -140,7 +140,8 @@ pub(crate) enum Figure {
         /// Column of the result to draw
         #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
         result: String,
-        /// Its error by the size of the cells, as a percentage [default: the worst of the bonds of make]
+        /// Its error by the size of the cells, as a percentage [default: the worst of the bonds of
+        /// make for WP, EP by side and pressure, none for others]
         #[arg(long, value_name = "PERCENT", value_parser = share)]
         error: Option<f64>,
         #[command(flatten)]

@@ -100,12 +100,6 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
             "a run is a folder of files and cannot go to standard output: -o RUNDIR is needed",
         ));
     }
-    if arguments.resume && !folder.join("resolved.toml").exists() {
-        cli::note(format!(
-            "'{}' holds no run to continue: a new one starts",
-            folder.display()
-        ));
-    }
     cli::catch_interrupts()?;
     let mode = run::Mode {
         resume: arguments.resume,

@@ -57,7 +57,7 @@ pub(crate) struct Arguments {
     /// Where the table goes; `-` is standard output
     #[arg(short, long, value_name = "CSV", default_value = "-")]
     pub(crate) output: Output,
-    /// Write mean and standard deviation over the files (two or more, no copies; each counts once)
+    /// Write mean and standard deviation over the files (two or more, no copies; each is one sample)
     #[arg(long, value_name = "CSV", conflicts_with_all = ["series", "finer"])]
     pub(crate) summary: Option<Output>,
     /// Write WP and volume of every column of voxels across the bond (one FILE only)
@@ -91,8 +91,8 @@ pub(crate) struct Arguments {
     /// wood, in cells of one voxel; its error is the difference from cells of two
     #[arg(long, value_name = "AXIS", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) permeability: Option<Axis>,
-    /// Measure pores and lumens instead: the share of all that is not wood by the diameter of the largest ball around each
-    /// place that fits between the wood (for bond-figures pores)
+    /// Measure pores and lumens instead: the share of all that is not wood by the diameter of the largest ball between
+    /// the wood that holds each place (for bond-figures pores)
     #[arg(long, conflicts_with = "permeability", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) pores: bool,
     /// The sides along the flow are periodic, not mirrors

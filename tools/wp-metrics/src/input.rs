@@ -110,7 +110,7 @@ impl Input {
         let number = text.and_then(|text| text.parse().ok());
         number.filter(|n: &f64| n.is_finite()).ok_or_else(|| {
             Failure::usage(format!(
-                "'{}' does not say its {name}: a state of a run is needed, by this version of mpm-run",
+                "'{}' does not say its {name}: a state of a run is needed",
                 self.name
             ))
         })

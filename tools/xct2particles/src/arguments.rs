@@ -11,8 +11,8 @@ use voxels::{Crop, Dims, Grey, Labels, RawType};
 /// Turn a stack of XCT label images into a particle file
 ///
 /// Every voxel of wood or adhesive becomes one material point. Labels are the stored sample values,
-/// whatever colours an image program shows; the colours only where one value has several, page by
-/// page. Pages are z, rows y, columns x.
+/// whatever colours an image program shows; the colours, where pages show one value in
+/// several. Pages are z, rows y, columns x.
 #[derive(Parser)]
 #[command(
     version,

@@ -54,7 +54,7 @@ impl Gas {
     /// p V = m - dt/t_leak (p - p_0) V.
     pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
         let leak = dt / self.leak_time;
-        // A void that liquid opens without air has no tangent in a vacuum.
+        // Below what passes may miss: a void that liquid opens without air has no tangent in a vacuum.
         let thinnest = MISSED * self.outside;
         let absolute = (mass / volume + leak * self.outside) / (1.0 + leak);
         Tangent {

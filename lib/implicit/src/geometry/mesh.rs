@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use physics::Boundary;
+use rayon::prelude::*;
 
 use super::lattice::Lattice;
 use super::measures::Measures;
@@ -125,7 +126,7 @@ impl Mesh {
         };
         let k3 = mesh.k.pow(3);
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
-        mesh.codes = (0..k3 * cells).map(code).collect();
+        mesh.codes = (0..k3 * cells).into_par_iter().map(code).collect();
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
             let (open, row) = (mesh.open_voxels(cell), mesh.row(cell) as u32);

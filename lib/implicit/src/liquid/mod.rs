@@ -12,4 +12,4 @@ pub(crate) use carry::{
 };
 pub(crate) use deposit::{Place, deposit};
 pub(crate) use profile::Profile;
-pub(crate) use transport::{Moved, ROUNDING, TRACE, transport};
+pub(crate) use transport::{Moved, TRACE, transport};

@@ -6,7 +6,7 @@ use super::overflow::overflow;
 use super::water::carry;
 use crate::geometry::{Mesh, Way};
 
-/// Least part of the surface's normal along a face's axis, of that aside, for which the face passes on what lies ahead: with less, faces
+/// Least component of the surface's normal along a face's axis, over that aside, for which the face passes on what lies ahead: with less, faces
 /// along a surface would; with more, a front that is hardly inclined is smeared.
 const NORMAL: f64 = 0.7;
 /// Cells that liquid crosses at most between two looks at the surface: a front keeps its shape to first order in it, and
@@ -15,9 +15,9 @@ const CROSSED: f64 = 0.25;
 
 /// Volume, cells, that counts as none: what rounding leaves behind a front. A larger one would be liquid that is lost.
 pub(crate) const TRACE: f64 = 1e-9;
-/// Part of a volume, or of a full cell, that is rounding: fifty bits. With less, sums that are right never settle; with a thousand times
+/// Part of a volume, or of a full cell, that is rounding: 45 units in the last place. With less, sums that are right never settle; with a thousand times
 /// as much, liquid goes astray.
-pub(crate) const ROUNDING: f64 = 1e-14;
+pub(super) const ROUNDING: f64 = 1e-14;
 /// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is: all that
 /// settle take fewer.
 pub(super) const PASSES: usize = 100;
@@ -45,7 +45,8 @@ pub(crate) fn transport(
     dt: f64,
 ) -> Moved {
     let fastest = velocity.iter().fold(0.0_f64, |most, v| v.abs().max(most));
-    let parts = (fastest * dt / CROSSED - TRACE).ceil().max(1.0);
+    // What rounding adds is no look more.
+    let parts = (fastest * dt / CROSSED - 1e-9).ceil().max(1.0);
     let swept: Vec<f64> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)

@@ -14,6 +14,7 @@ const NEAR: f64 = 0.7;
 /// Solves that bring a step nearer to the end, and a clamp under a pressure to its speed: either settles in one or two where it
 /// settles at all.
 const SOLVES: usize = 4;
+
 /// Length of the step that goes as far as `left`, of lengths and speeds of the last one and the one `before`: speeds are linear
 /// in the length.
 fn arrival(left: f64, [dt, speed]: [f64; 2], before: Option<[f64; 2]>) -> f64 {
@@ -64,7 +65,8 @@ impl Implicit {
         let near = (MISSED * left).max(STILL);
         if reach > left + near {
             let dt = solved.dt;
-            let middle = self.middle(dt, Some(&solved.flow))?;
+            let mut middle = self.middle(dt, Some(&solved.flow));
+            self.dry(&mut middle)?;
             solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
         }
         let reach = solved.flow.speed * solved.dt;
@@ -91,7 +93,8 @@ impl Implicit {
             Some(_) => dt,
             None => 0.5 * dt,
         });
-        let mut middle = self.middle(dt, None)?;
+        let mut middle = self.middle(dt, None);
+        self.dry(&mut middle)?;
         for _ in 1..SOLVES {
             let solved = self.solve_middle(&middle, guess)?;
             let [assumed, height] = self.heights(&middle, &solved, dt);
@@ -101,7 +104,7 @@ impl Implicit {
             }
             // A clamp that goes faster may meet liquid that it would not have met; one that goes slower leaves none that
             // it met, or it would go to and fro.
-            let other = self.middle(dt, Some(&solved.flow))?;
+            let other = self.middle(dt, Some(&solved.flow));
             let stays = match height < assumed {
                 true => !is_off && !other.meets_more(&middle),
                 false => middle.meets_more(&other),
@@ -111,6 +114,7 @@ impl Implicit {
                 return Ok(solved);
             }
             middle = other;
+            self.dry(&mut middle)?;
         }
         let mut solved = self.solve_middle(&middle, guess)?;
         let [assumed, height] = self.heights(&middle, &solved, dt);

@@ -64,7 +64,7 @@ pub(super) struct Solved {
 impl Implicit {
     /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
     /// that the clamp is asked for.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Result<Middle, String> {
+    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
         let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
         let full: Vec<bool> = (self.state.volumes.iter().enumerate())
@@ -82,16 +82,11 @@ impl Implicit {
         }
         self.clock.add(Stage::Geometry, begun);
         let begun = Instant::now();
-        let lost = self.exchange(dt, &fractions)?;
-        if lost.is_some() {
-            self.clock.add(Stage::Water, begun);
-        }
-        let begun = Instant::now();
         let halves = halves(&self.mesh, &fractions);
         let masses = masses(&self.mesh, &halves);
         self.clock.add(Stage::Assembly, begun);
         let cure = self.setup.liquid.cure.as_ref();
-        Ok(Middle {
+        Middle {
             dt,
             closing,
             end: self.end_height(dt, closing),
@@ -100,8 +95,18 @@ impl Implicit {
             halves,
             masses,
             viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
-            lost,
-        })
+            lost: None,
+        }
+    }
+
+    /// Finds what liquid loses in a `middle` that is solved.
+    pub(super) fn dry(&mut self, middle: &mut Middle) -> Result<(), String> {
+        let begun = Instant::now();
+        middle.lost = self.exchange(middle.dt, &middle.fractions)?;
+        if middle.lost.is_some() {
+            self.clock.add(Stage::Water, begun);
+        }
+        Ok(())
     }
 
     /// What pores are filled to in the middle of a step of `dt` (s), those `full` at its start and others, by a `flow` or the last.

@@ -7,7 +7,7 @@ use crate::liquid::TRACE;
 
 /// Volume fraction from which on a pore is full and has a pressure of its own, which fills what it lacks within the step. With
 /// 0.8 the force of a piston in a slit of three cells scatters by 4.0 % instead of 1.6; with 0.98 what a front's shape
-/// adds in a duct of six is off by 0.035 widths of flow instead of 0.017 (piston into a slit and a square lumen, docs/methods.md 3.14).
+/// adds in a duct of six is off by 0.035 widths of flow instead of 0.017.
 pub(crate) const FULL: f64 = 0.9;
 
 /// Numbers of the unknowns of a step: of velocities along rows of cells, one component after the other, so that neighbours

@@ -60,7 +60,7 @@ pub(crate) fn judge(
     }
     if found.crowded > MOST_CROWDED {
         reasons.push(format!(
-            "{:.1} % of the liquid lies where there is no room for it: beyond one and a half times the volume of blocks of 2 x 2 x 2 cells",
+            "{:.1} % of the liquid lies where there is no room for it: beyond one and a half times the volume of blocks of two cells a side",
             100.0 * found.crowded
         ));
     }
