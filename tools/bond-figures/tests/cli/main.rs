@@ -106,7 +106,7 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
     bench.write("header.csv", HISTORY.lines().next().unwrap());
     bench.write("other.csv", "time_s,speed\n0,1\n");
     bench.write("words.csv", HISTORY.replace("1.1e6", "much"));
-    bench.write("pores.csv", "diameter_um,up_to_fraction\n1,NaN\n");
+    bench.write("pores.csv", "file,diameter_um,up_to_fraction\na,1,NaN\n");
     for (arguments, words) in [
         ("pressure --run missing.csv", "cannot read 'missing.csv'"),
         ("pressure --run empty.csv", "at least one row"),
