@@ -18,11 +18,10 @@ fn a_plan_says_what_would_be_refused_and_needs_no_memory() {
         plan.contains("refused            unless --yes-really"),
         "{plan}"
     );
-    bench.ends(
-        2,
-        "mpm-run -q case.toml -o run",
-        "--yes-really runs it all the same",
-    );
+    let run = "mpm-run -q case.toml -o run";
+    bench.ends(2, run, "--yes-really runs it all the same");
+    bench.write("case.toml", changed(&[("velocity = \"clamp\"\n", "")]));
+    bench.ends(2, run, "[clamp] has nothing to move");
     assert!(!bench.path("run").exists());
     bench.write("case.toml", widened("0.2 m"));
     let plan = bench.done("ulimit -v 2000000; mpm-run case.toml --explain --threads 1");

@@ -101,10 +101,13 @@ fn a_run_that_ended_is_sound_only_if_its_files_say_so() {
     let summary = bench.text("run/summary.json");
     let worse = summary
         .replace("\"sound\": true", "\"sound\": false")
-        .replace("\"reasons\": []", "\"reasons\": [\"it is forged\"]");
+        .replace(
+            "\"reasons\": []",
+            "\"reasons\": [\"it is forged\", \"twice\"]",
+        );
     bench.write("run/summary.json", worse);
     let said = bench.ends(1, AGAIN, "not sound");
-    assert!(said.contains("it is forged"), "{said}");
+    assert!(said.contains(": it is forged; twice"), "{said}");
     let silent = "does not say whether the results are sound";
     bench.write("run/summary.json", "{}");
     bench.ends(3, AGAIN, silent);

@@ -3,6 +3,7 @@
 use studies::case_text::Viscosity;
 use studies::job::{Job, run_one};
 use studies::method::Method;
+use studies::outputs;
 use studies::verification::Scene;
 
 /// A scene by a method.
@@ -11,11 +12,27 @@ pub struct Run<'a>(pub &'a dyn Fn() -> Scene, pub Method);
 pub type Mistake = fn(Scene) -> Scene;
 
 impl Run<'_> {
+    /// Columns of the history of a run of a method whose label is the part of a file name as it is.
+    pub fn columns<const N: usize>(&self, names: [&str; N]) -> [Vec<f64>; N] {
+        let (scene, folder) = ((self.0)(), tempfile::tempdir().unwrap());
+        _ = run_one(&self.job(&scene), folder.path());
+        let run = outputs::Run {
+            folder: folder
+                .path()
+                .join(format!("{}-{}", scene.name, self.1.label)),
+        };
+        names.map(|name| run.history(name).unwrap())
+    }
+
+    fn job<'a>(&self, scene: &'a Scene) -> Job<'a> {
+        let method = self.1.clone();
+        Job { scene, method }
+    }
+
     /// Errors of the quantities whose names begin with `what`.
     pub fn errors(&self, scene: &Scene, what: &str) -> Vec<f64> {
         let folder = tempfile::tempdir().unwrap();
-        let method = self.1.clone();
-        let outcome = run_one(&Job { scene, method }, folder.path());
+        let outcome = run_one(&self.job(scene), folder.path());
         let list = outcome.measured.unwrap_or_else(|said| panic!("{said}"));
         let of = list.iter().filter(|m| m.what.starts_with(what));
         of.map(|m| m.error).collect()

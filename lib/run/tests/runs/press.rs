@@ -161,7 +161,7 @@ fn stages_that_contradict_one_another_are_refused() {
     bench(STAGES).refuses(PLAIN, &["integrator.scheme=explicit"], &said);
 }
 
-/// By its travel alone a hot press takes 11 steps; it takes 82, and 400 with all effects.
+/// How many steps a hot press takes does not follow from its travel.
 #[test]
 fn the_plan_of_a_programme_forecasts_no_steps() {
     let plan = bench(STAGES).plan(&[]).unwrap();

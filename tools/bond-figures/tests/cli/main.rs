@@ -106,6 +106,7 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
     bench.write("header.csv", HISTORY.lines().next().unwrap());
     bench.write("other.csv", "time_s,speed\n0,1\n");
     bench.write("words.csv", HISTORY.replace("1.1e6", "much"));
+    bench.write("pores.csv", "file,diameter_um,up_to_fraction\na,1,NaN\n");
     for (arguments, words) in [
         ("pressure --run missing.csv", "cannot read 'missing.csv'"),
         ("pressure --run empty.csv", "at least one row"),
@@ -119,6 +120,10 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
             "row 2 below the header, column pressure_top_Pa: 'much'",
         ),
         ("pores wp.csv", "diameter_um"),
+        (
+            "pores pores.csv",
+            "up_to_fraction: no row holds a finite number",
+        ),
         ("slice wp.csv", "wp.csv"),
         ("view wp.csv", "wp.csv"),
         ("setup wp.csv wp.csv", "wp.csv"),
