@@ -36,6 +36,11 @@ fn a_run_folder_without_a_mark_is_replaced_only_when_vouched_for() {
     let mistyped = press("rnu", &FAST, "--resume").replace(" -q ", " ");
     let said = "'rnu' holds no run to continue: a new one starts";
     bench.ends(0, &mistyped, said);
+    for name in ["final.mpts", "summary.json"] {
+        std::fs::remove_file(bench.path("rnu").join(name)).unwrap();
+    }
+    let said = "'rnu' holds a run without a checkpoint: it starts again";
+    bench.ends(0, &mistyped, said);
 }
 
 /// 314e630 made the folder anew and ended well, without a history.

@@ -32,6 +32,8 @@ pub struct RunEnd {
     pub gap_m: f64,
     /// The same over the whole way.
     pub gap_share: f64,
+    /// The stage of a programme that closed the bond, and the pressure then, of a programme that would have pressed on.
+    closed_in: Option<String>,
     /// The smallest that it was at the end of a stage, of a programme that ended with a release.
     held_share: Option<f64>,
     /// Total WP before that release, um; NaN where the run did not measure it.
@@ -81,6 +83,19 @@ impl RunEnd {
         let way_m = gap_m + number("travel_m");
         let stages = summary.get("programme").and_then(Value::as_array);
         let stages = stages.map_or(&[][..], Vec::as_slice);
+        let closed = stages
+            .iter()
+            .position(|stage| stage["ended_by"] == "closed");
+        let closed = closed.filter(|at| {
+            stages[at + 1..]
+                .iter()
+                .any(|next| next["kind"] != "release")
+        });
+        let closed_in = closed.map(|at| {
+            let pressure = 1e-6 * stages[at]["pressure_pa"].as_f64().unwrap_or(f64::NAN);
+            let kind = stages[at]["kind"].as_str().unwrap_or_default();
+            format!("closed in stage {} ({kind}) at {pressure:.3} MPa: no later stage pressed it further", at + 1)
+        });
         let released = stages.last().is_some_and(|last| last["kind"] == "release");
         let held = stages.iter().rfind(|stage| stage["kind"] != "release");
         let held_wp = held.and_then(|stage| stage["wp_m"].as_f64());
@@ -91,6 +106,7 @@ impl RunEnd {
             reasons: texts("/verdict/reasons"),
             gap_m,
             gap_share: gap_m / way_m,
+            closed_in,
             held_share: released.then(|| 1.0 - travels.fold(f64::NAN, f64::max) / way_m),
             held_wp_um: released.then(|| 1e6 * held_wp.unwrap_or(f64::NAN)),
             time_s: number("time_s"),
@@ -131,6 +147,11 @@ impl RunEnd {
         Some(format!("WP after its release{before}"))
     }
 
+    /// Of a press programme that closed the bond before its pressure: when.
+    pub fn closed_in(&self) -> Option<&str> {
+        self.closed_in.as_deref()
+    }
+
     /// What to do about the mark, in sentences; none where there is nothing to do.
     pub fn advice(&self) -> Option<String> {
         let mark = self.mark()?;
@@ -145,7 +166,7 @@ impl RunEnd {
                 let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
                 let command = self.with("--overwrite", Some(&limit));
                 format!(
-                    "{open}: penetration of a press on its way. It goes on longer with --set \"{limit}\" (make: SET=\"{limit}\"){command}"
+                    "{open}: penetration of a press on its way. A longer press: --set \"{limit}\" (make: SET=\"{limit}\"){command}"
                 )
             }
             end => format!("{open} when the run ended ({end})"),
@@ -250,11 +271,13 @@ mod tests {
         let mark = |held_um: f64, gap_m: f64, last: &str| {
             let mut told = summary("programme", gap_m);
             told["programme"] = serde_json::json!([
-                { "kind": "hold", "travel_m": 1e-6 * held_um, "wp_m": 7e-6 },
+                { "kind": "hold", "travel_m": 1e-6 * held_um, "wp_m": 7e-6, "ended_by": "closed", "pressure_pa": 1e4 },
                 { "kind": last, "travel_m": 1e-5 - gap_m },
             ]);
             let end = RunEnd::of(&told);
             let released = "WP after its release, 7.00 um in total before it";
+            let closed = "closed in stage 1 (hold) at 0.010 MPa: no later stage pressed it further";
+            assert_eq!(end.closed_in(), (last != "release").then_some(closed));
             assert_eq!(end.released(), (last == "release").then(|| released.into()));
             end.mark()
         };

@@ -129,7 +129,11 @@ impl RunFolder {
 
     /// Columns of the table of all runs, and its row.
     pub(crate) fn row(&self) -> [(&'static str, String); 11] {
-        let sound = if self.end.sound { "sound" } else { "not sound" };
+        let sound = match self.end.sound {
+            true => "sound",
+            false if self.end.end == "not-ended" => "not known",
+            false => "not sound",
+        };
         let pressure = self.number("/final_pressure_pa", 1e-6, 3);
         let volume = self.number("/invariants/volume_change", 100.0, 3);
         let deepest = self.number("/invariants/deepest_m", 1e6, 3);

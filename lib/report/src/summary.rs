@@ -111,7 +111,8 @@ fn doubts(runs: &[RunFolder]) -> String {
             let (label, said) = (escape(&run.label), escape(said));
             items.push(format!("<strong>{label}: {said}</strong>{command}"));
         }
-        let doubts = run.voxel_doubts.iter();
+        let doubts = run.voxel_doubts.iter().map(String::as_str);
+        let doubts = doubts.chain(run.end.closed_in());
         items.extend(doubts.map(|doubt| escape(&format!("{}: {doubt}", run.label))));
     }
     let mut say = |said: &str, is: &dyn Fn(&RunFolder) -> bool| {

@@ -51,7 +51,7 @@ fn scene(setup: &Setup) -> String {
     let [x, y, z] = scene.boundary.map(Choice::name);
     out += &line("sides", format!("x {x}, y {y}, z {z}"));
     for (index, stage) in scene.programme.iter().enumerate() {
-        out += &line(&format!("stage {}", index + 1), told(stage));
+        out += &line(&format!("stage {}", index + 1), told(index, stage));
     }
     if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
         let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
@@ -180,8 +180,12 @@ fn end(setup: &Setup) -> String {
 }
 
 /// A stage of a press programme.
-fn told(stage: &PressStage) -> String {
-    let mut said = format!("{}, at most {:.4e} m/s", stage.kind.name(), stage.speed);
+fn told(index: usize, stage: &PressStage) -> String {
+    let mut said = format!(
+        "{}, clamp.stage.{index} for --set, at most {:.4e} m/s",
+        stage.kind.name(),
+        stage.speed
+    );
     if let Some(pressure) = stage.pressure {
         let where_to = match stage.kind {
             Press::Approach => "until",
@@ -226,7 +230,7 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
 /// How many steps, and what time they take.
 fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
     if !setup.scene.programme.is_empty() {
-        let not = "not forecast: a press programme takes as many as the flow in lumens, cure, drying and menisci ask for (examples are in docs/results/press.md)";
+        let not = "not forecast for a press programme: tens to hundreds (docs/results/press.md), more with surface tension";
         return [not.into(), format!("{:.1e} s a step", forecast.step_s)];
     }
     let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);

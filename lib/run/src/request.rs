@@ -18,7 +18,7 @@ use crate::earlier_run::{self, Mode};
 use crate::ends::{Ahead, End};
 use crate::expected_error;
 use crate::failure::{RunFailure, refused};
-use crate::folder::{CHECKPOINT, FINAL, HISTORY, RunFolder, SUMMARY};
+use crate::folder::{CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SUMMARY};
 use crate::forecast::Forecast;
 use crate::history::History;
 use crate::last_state::conclude;
@@ -163,12 +163,13 @@ impl Request {
         let (clock, courant, history) = match checkpoint {
             Some(checkpoint) => self.continued(folder, checkpoint, scheme.as_mut(), &resolved)?,
             None => {
+                let what = match folder.place(RESOLVED).exists() {
+                    true => "a run without a checkpoint: it starts again",
+                    false => "no run to continue: a new one starts",
+                };
                 let begun = self.anew(folder, mode, &resolved, &by)?;
                 if mode.resume {
-                    let place = folder.path().display();
-                    warn(format!(
-                        "'{place}' holds no run to continue: a new one starts"
-                    ));
+                    warn(format!("'{}' holds {what}", folder.path().display()));
                 }
                 begun
             }

@@ -78,7 +78,7 @@ fn read(
     Ok((kind, format, shown))
 }
 
-/// Grey stays grey, all other colours are read as RGB.
+/// Brightness: colours that its compression has changed are no labels.
 fn jpeg(bytes: &[u8], page: Option<&mut Vec<u8>>) -> Read {
     if page.is_some() && !ends_as_jpeg(bytes) {
         return Err("its last scan has no end: it is truncated".into());
@@ -88,18 +88,14 @@ fn jpeg(bytes: &[u8], page: Option<&mut Vec<u8>>) -> Read {
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers()?;
     let info = decoder.info().ok_or("it has no frame")?;
-    let (channels, shown, colours) = match decoder.input_colorspace() {
-        Some(ColorSpace::Luma) => (1, Shown::GREY, ColorSpace::Luma),
-        _ => (3, Shown::RGB, ColorSpace::RGB),
-    };
     let size = [info.width.into(), info.height.into()];
-    let format = format_of(size, Sample::U8, channels)?;
+    let format = format_of(size, Sample::U8, 1)?;
     if let Some(page) = page {
-        decoder.set_options(options.jpeg_set_out_colorspace(colours));
+        decoder.set_options(options.jpeg_set_out_colorspace(ColorSpace::Luma));
         page.resize(format.page_bytes().unwrap_or(0), 0);
         decoder.decode_into(page)?;
     }
-    Ok((format, shown))
+    Ok((format, Shown::GREY))
 }
 
 /// Whether the last scan of a JPEG is followed by its end. The decoder makes up what is missing; within a scan

@@ -165,5 +165,11 @@ fn stages_that_contradict_one_another_are_refused() {
 #[test]
 fn the_plan_of_a_programme_forecasts_no_steps() {
     let plan = bench(STAGES).plan(&[]).unwrap();
-    has(&plan, &["\nsteps not forecast: ", " s a step on "]);
+    has(
+        &plan,
+        &[
+            "\nsteps not forecast for a press programme",
+            " s a step on ",
+        ],
+    );
 }

@@ -119,7 +119,8 @@ impl Piece {
     }
 
     fn press(&self, bin: &Path, bond: &Path, folder: &Path) -> Result<Run> {
-        // A few steps by either scheme; an older build takes the same case file, so the same Courant number.
+        // A few steps by either scheme; an older build takes the same case file, so the same Courant number, but cells in voxels
+        // it may not know.
         let until_us = if self.case.ends_with("implicit") {
             12.0
         } else {
@@ -130,6 +131,7 @@ impl Piece {
         command.arg(format!("{CASES}/{}.toml", self.case));
         command.arg("--particles").arg(bond).arg("-o").arg(&run);
         command.args(["--overwrite", "--quiet", "--set", "output.snapshots=0"]);
+        command.args(["--set", "grid.cell=\"2.9 um\""]);
         command.args(["--threads", &self.threads.to_string()]);
         command.args(["--set", &format!("clamp.time_limit=\"{until_us} us\"")]);
         done(&mut command).map_err(|said| format!("{}: {said}", self.name()))?;

@@ -127,6 +127,16 @@ pub fn jpeg(values: &[u8], quality: u8) -> Vec<u8> {
     file
 }
 
+/// The same grey values as red, green and blue.
+pub fn rgb_jpeg(values: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let [nx, ny, _] = DIMS.map(|n| n as u16);
+    let pixels: Vec<u8> = values.iter().flat_map(|&value| [value; 3]).collect();
+    let encoder = jpeg_encoder::Encoder::new(&mut file, 100);
+    (encoder.encode(&pixels, nx, ny, jpeg_encoder::ColorType::Rgb)).unwrap();
+    file
+}
+
 pub fn zlib(bytes: &[u8]) -> Vec<u8> {
     let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), Compression::default());
     packed.write_all(bytes).unwrap();

@@ -152,11 +152,15 @@ fn folders_of_bmp_and_png_slices() {
 
 #[test]
 fn jpeg_slices_give_grey_values() {
-    let slices = folder("jpeg", |z| jpeg(&page(z, |l| 40 + 80 * l), 100));
+    let values = |z| page(z, |l| 40 + 80 * l);
     let grey = by_grey("wood=80..159,adhesive=160..");
-    let found = segmented(slices.path(), &grey).unwrap();
-    let counts = [found.wood.count(), found.adhesive.count()];
-    assert_eq!(counts, [count(1), count(2)]);
+    let rgb = folder("jpeg", |z| rgb_jpeg(&values(z)));
+    let slices = folder("jpeg", |z| jpeg(&values(z), 100));
+    for slices in [&rgb, &slices] {
+        let found = segmented(slices.path(), &grey).unwrap();
+        let counts = [found.wood.count(), found.adhesive.count()];
+        assert_eq!(counts, [count(1), count(2)]);
+    }
     for phases in [Phases::Guess, by_labels("void=40,wood=120,adhesive=200")] {
         assert_says(segmented(slices.path(), &phases), &["--grey"]);
     }
