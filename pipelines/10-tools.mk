@@ -11,7 +11,7 @@ OTHER_BINARIES := $(filter-out $(FOREMOST_TOOLS:%=$(BIN)/%),$(BINARIES)) $(BIN)/
 .PRECIOUS: $(BINARIES) $(OTHER_BINARIES)
 
 # Sub-makes find the tools built.
-BUILD = @[ -x $(BIN)/mpm-run ] || echo "building the tools, once: about seven minutes of one core, four of two" >&2; \
+BUILD = @[ -x $(BIN)/mpm-run ] || echo "building the tools, once: about six minutes of one core, three and a half of two" >&2; \
     $(CARGO) build --release
 ifeq ($(BUILT),)
 $(BINARIES) &: FORCE
