@@ -1,5 +1,6 @@
 //! The runs that are measured: synthetic specimens of the paper's wood, pressed for a few steps.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -119,8 +120,13 @@ impl Piece {
     }
 
     fn press(&self, bin: &Path, bond: &Path, folder: &Path) -> Result<Run> {
-        // A few steps by either scheme; an older build takes the same case file, so the same Courant number, but cells in voxels
-        // it may not know.
+        // A few steps by either scheme; an older build takes the same case, so the same Courant number, but may know no cells in
+        // voxels.
+        let [case, own] =
+            [Path::new(CASES), folder].map(|at| at.join(format!("{}.toml", self.case)));
+        let text = fs::read_to_string(&case).map_err(|e| format!("{}: {e}", case.display()))?;
+        fs::write(&own, text.replace("2 voxels", "2.9 um"))
+            .map_err(|e| format!("{}: {e}", own.display()))?;
         let until_us = if self.case.ends_with("implicit") {
             12.0
         } else {
@@ -128,10 +134,9 @@ impl Piece {
         };
         let run = folder.join("run");
         let mut command = Command::new(bin.join("mpm-run"));
-        command.arg(format!("{CASES}/{}.toml", self.case));
+        command.arg(&own);
         command.arg("--particles").arg(bond).arg("-o").arg(&run);
         command.args(["--overwrite", "--quiet", "--set", "output.snapshots=0"]);
-        command.args(["--set", "grid.cell=\"2.9 um\""]);
         command.args(["--threads", &self.threads.to_string()]);
         command.args(["--set", &format!("clamp.time_limit=\"{until_us} us\"")]);
         done(&mut command).map_err(|said| format!("{}: {said}", self.name()))?;

@@ -115,11 +115,13 @@ fn table(scenes: &[Scene], outcomes: &[Outcome]) -> String {
     study::table(&heads, methods().into_iter().map(row))
 }
 
-/// The largest error of what is compared, in per cent, or that the run stopped.
+/// The largest error of what is compared, in per cent, or that the run was refused or stopped.
 fn cell(outcome: &Outcome) -> String {
     let compared = ["piston force", "mean velocity", "force on the top"];
-    let Ok(list) = &outcome.measured else {
-        return "stopped".into();
+    let list = match &outcome.measured {
+        Ok(list) => list,
+        Err(said) if said.contains("exit Some(2)") => return "refused".into(),
+        Err(_) => return "stopped".into(),
     };
     let of = list
         .iter()
