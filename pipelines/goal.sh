@@ -58,6 +58,6 @@ if [ -n "$bonds" ]; then
         fi
     fi
 fi
-# By itself: make starts the runs that waited for it from the last on, and the first takes longest.
+# Before the rest: of runs that wait for it, make starts the last ones first, and the first takes longest.
 case $goal in all | runs | table2 | figures | report) "$@" first-table ;; esac
 exec "$@" "$goal"

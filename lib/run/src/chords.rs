@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use physics::{RigidBody, Scene, VoxelBlock};
 
-use crate::left_out::LeftOut;
+use crate::left_out::Remark;
 
 /// Layers of voxels from the bond surface into the wood that are looked at.
 const LAYERS: usize = 32;
@@ -13,7 +13,7 @@ const LAYERS: usize = 32;
 const FEWEST: f64 = 5.0;
 
 /// What they are and, where they have few cells, what to do; nothing where the bodies are boxes or have no lumens.
-pub(crate) fn told(scene: &Scene) -> Vec<LeftOut> {
+pub(crate) fn told(scene: &Scene) -> Vec<Remark> {
     let sides = [(scene.bottom, true), (scene.top, false)];
     let blocks = sides.map(|(body, up)| Some((single(scene.bodies.get(body?)?)?, up)));
     let mut lengths = Lengths::default();
@@ -28,7 +28,7 @@ pub(crate) fn told(scene: &Scene) -> Vec<LeftOut> {
     };
     let (voxel, cell) = (block.voxel()[0], scene.grid.cell_m);
     let cells = chord as f64 * voxel / cell;
-    let mut out = vec![LeftOut {
+    let mut out = vec![Remark {
         what: "lumens at the bond",
         why: format!(
             "{chord} voxels across the grain, {cells:.1} cells (median by volume of {} chords)",
@@ -43,7 +43,7 @@ pub(crate) fn told(scene: &Scene) -> Vec<LeftOut> {
             false => String::new(),
         };
         let um = 1e6 * voxel;
-        out.push(LeftOut {
+        out.push(Remark {
             what: "proposed",
             why: format!(
                 "one voxel a cell, grid.cell = \"{um:.6} um\"{same_walls}: fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more"

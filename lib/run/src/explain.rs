@@ -7,7 +7,7 @@ use physics::{
 
 use crate::case::{Case, SchemeName};
 use crate::forecast::{Forecast, duration, line};
-use crate::left_out::{LeftOut, left_out};
+use crate::left_out::{Remark, left_out};
 use crate::resolve::Setup;
 use crate::{chords, expected_error, summary};
 
@@ -19,7 +19,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     };
     let regime = Regime::of(&setup.scene, &setup.liquid).to_string();
     let regime: String = regime.lines().map(|line| format!("  {line}\n")).collect();
-    let lines = |items: Vec<LeftOut>| -> String {
+    let lines = |items: Vec<Remark>| -> String {
         (items.iter().map(|item| line(item.what, &item.why))).collect()
     };
     [

@@ -11,9 +11,9 @@ pub(crate) const BEYOND_SIDES: &str = "beyond the sides";
 /// What that does to WP.
 pub(crate) const UNCERTAIN: &str = "uncertain by its difference from the same run without [air]";
 
-/// One thing left out, or to be known before a run.
+/// What is to be known of a run: what it does without, lumens of few cells.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct LeftOut {
+pub struct Remark {
     /// What.
     pub what: &'static str,
     /// Why, in a few words with numbers.
@@ -21,17 +21,17 @@ pub struct LeftOut {
 }
 
 /// Everything that a run with `stages` leaves out.
-pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftOut> {
+pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Remark> {
     let regime = Regime::of(&setup.scene, &setup.liquid);
     let absent = |stage: &physics::Stage| {
         let why = stage.absent.clone()?;
-        Some(LeftOut {
+        Some(Remark {
             what: stage.name,
             why,
         })
     };
-    let mut list: Vec<LeftOut> = stages.iter().filter_map(absent).collect();
-    let mut add = |what, why: String| list.push(LeftOut { what, why });
+    let mut list: Vec<Remark> = stages.iter().filter_map(absent).collect();
+    let mut add = |what, why: String| list.push(Remark { what, why });
     add(
         "wood deformation",
         "adherends are rigid (paper section 2.2)".into(),

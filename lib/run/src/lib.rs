@@ -42,7 +42,7 @@ pub use ends::{Ahead, End};
 pub use expected_error::{ExpectedError, QuantityError};
 pub use failure::RunFailure;
 pub use invariants::Invariants;
-pub use left_out::LeftOut;
+pub use left_out::Remark;
 pub use request::Request;
 pub use summary::{PressedStage, Stage, Summary};
 pub use verdict::Verdict;

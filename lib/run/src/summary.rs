@@ -12,7 +12,7 @@ use crate::ends::End;
 use crate::expected_error::ExpectedError;
 use crate::history;
 use crate::invariants::Invariants;
-use crate::left_out::{BEYOND_SIDES, LeftOut, UNCERTAIN};
+use crate::left_out::{BEYOND_SIDES, Remark, UNCERTAIN};
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
@@ -78,9 +78,9 @@ pub struct Account {
     /// What was measured of the error of its scheme and options.
     pub expected_error: ExpectedError,
     /// How wide the lumens at the bond are, and what to do where they have few cells.
-    pub lumens: Vec<LeftOut>,
+    pub lumens: Vec<Remark>,
     /// What the run does not compute, and why.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<Remark>,
     /// What made this run folder.
     pub provenance: serde_json::Value,
 }

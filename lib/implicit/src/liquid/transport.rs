@@ -6,8 +6,8 @@ use super::overflow::overflow;
 use super::water::carry;
 use crate::geometry::{Mesh, Way};
 
-/// Least component of the surface's normal along a face's axis, over that aside, for which the face passes on what lies ahead: with less, faces
-/// along a surface would; with more, a front that is hardly inclined is smeared.
+/// Least component of the surface's normal along a face's axis, over that aside, for which the face passes on what lies ahead:
+/// with less, faces along a surface would; with more, a front that is hardly inclined is smeared.
 const NORMAL: f64 = 0.7;
 /// Cells that liquid crosses at most between two looks at the surface: a front keeps its shape to first order in it, and
 /// looks cost next to nothing beside a solution.
@@ -15,11 +15,11 @@ const CROSSED: f64 = 0.25;
 
 /// Volume, cells, that counts as none: what rounding leaves behind a front. A larger one would be liquid that is lost.
 pub(crate) const TRACE: f64 = 1e-9;
-/// Part of a volume, or of a full cell, that is rounding: 45 units in the last place. With less, sums that are right never settle; with a thousand times
-/// as much, liquid goes astray.
+/// Part of a volume, or of a full cell, that is rounding: 45 units in the last place. With less, sums that are right never
+/// settle; with a thousand times as much, liquid goes astray.
 pub(super) const ROUNDING: f64 = 1e-14;
-/// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is: all that
-/// settle take fewer.
+/// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is:
+/// all that settle take fewer.
 pub(super) const PASSES: usize = 100;
 
 /// Liquid after a step.
