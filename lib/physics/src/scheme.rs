@@ -208,6 +208,10 @@ pub trait Scheme {
     fn diagnostics(&self) -> Diagnostics;
     /// The liquid after the last step.
     fn liquid(&self) -> LiquidState;
+    /// Positions and volumes of its points, all that the metrics of a history row take; the rest may be missing.
+    fn filling(&self) -> LiquidState {
+        self.liquid()
+    }
     /// Displacement of each body of the scene, m.
     fn displacements(&self) -> Vec<[f64; 3]>;
     /// All that [`Scheme::restore`] needs, by name.

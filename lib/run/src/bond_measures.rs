@@ -97,7 +97,7 @@ impl<'a> Watch<'a> {
 
     /// What the bond has come to.
     pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunFailure> {
-        let mut liquid = scheme.liquid();
+        let mut liquid = scheme.filling();
         in_file_axes(&mut liquid, self.normal);
         let displacements = scheme.displacements();
         self.measure(&liquid, &displacements, |state, middle| {

@@ -74,6 +74,8 @@ pub(crate) struct Mesh {
     pub(crate) faces: Vec<Face>,
     /// What fills each voxel of each cell.
     pub(super) codes: Vec<u8>,
+    /// At which sides of the box each cell lies, a bit each: low and high along x, y, z.
+    at_sides: Vec<u8>,
     /// First pore of each cell, and one more.
     pore_start: Vec<u32>,
     /// First face of each cell towards x, y, z, and one more.
@@ -119,6 +121,7 @@ impl Mesh {
             pores: Vec::new(),
             faces: Vec::new(),
             codes: Vec::new(),
+            at_sides: Vec::with_capacity(cells),
             pore_start: Vec::with_capacity(cells + 1),
             face_start: Vec::with_capacity(3 * cells + 1),
             sides: Vec::new(),
@@ -128,6 +131,10 @@ impl Mesh {
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
         mesh.codes = (0..k3 * cells).into_par_iter().map(code).collect();
         for cell in 0..cells {
+            let place = mesh.place(cell);
+            let sides = |a: usize| u8::from(place[a] == 0) | u8::from(place[a] + 1 == size[a]) << 1;
+            mesh.at_sides
+                .push((0..3).map(|a| sides(a) << (2 * a)).sum());
             mesh.pore_start.push(mesh.pores.len() as u32);
             let (open, row) = (mesh.open_voxels(cell), mesh.row(cell) as u32);
             mesh.pores
@@ -202,8 +209,10 @@ impl Mesh {
 
     /// The place in its cell of the voxel of a bit.
     pub(crate) fn voxel(&self, bit: usize) -> [usize; 3] {
-        let k = self.k;
-        [bit % k, bit / k % k, bit / (k * k)]
+        match self.k {
+            1 => [0; 3],
+            _ => [bit & 1, bit >> 1 & 1, bit >> 2],
+        }
     }
 
     /// Voxels on the high or low side of a cell along an axis, as bits of the other two axes, the lower fastest.
@@ -244,17 +253,13 @@ impl Mesh {
     pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let [nx, ny, _] = self.size;
         let (n, stride) = (self.size[axis], [1, nx, nx * ny][axis]);
-        let at = match axis {
-            0 => cell % nx,
-            1 => cell / nx % ny,
-            _ => cell / (nx * ny),
-        };
-        match up {
-            true if at + 1 < n => Some(cell + stride),
-            false if at > 0 => Some(cell - stride),
+        let at_side = self.at_sides[cell] >> (2 * axis + usize::from(up)) & 1 == 1;
+        match (at_side, up) {
+            (false, true) => Some(cell + stride),
+            (false, false) => Some(cell - stride),
             _ if !self.periodic()[axis] => None,
-            true => Some(cell - (n - 1) * stride),
-            false => Some(cell + (n - 1) * stride),
+            (true, true) => Some(cell - (n - 1) * stride),
+            (true, false) => Some(cell + (n - 1) * stride),
         }
     }
 
@@ -316,9 +321,7 @@ impl Mesh {
 
     /// The pore of a cell that holds a voxel.
     pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
-        let bit = self.bit(voxel);
-        self.pores_of(cell)
-            .find(|&pore| self.pores[pore].voxels >> bit & 1 == 1)
+        self.pores_of(cell).find(|&pore| self.holds(pore, voxel))
     }
 
     /// The face between two pores along an axis.
@@ -343,5 +346,5 @@ impl Mesh {
 
 /// The two other axes, the lower first.
 pub(crate) fn others(axis: usize) -> [usize; 2] {
-    [[1, 2], [0, 2], [0, 1]][axis]
+    [usize::from(axis == 0), 2 - usize::from(axis == 2)]
 }

@@ -53,6 +53,11 @@ impl Mesh {
             .map(|bit| self.voxel(bit))
     }
 
+    /// Whether the voxel at a place in its cell is one of a pore's.
+    pub(crate) fn holds(&self, pore: usize, voxel: [usize; 3]) -> bool {
+        self.pores[pore].voxels >> self.bit(voxel) & 1 == 1
+    }
+
     /// Whether a face is open at the column of voxels along its axis through a place in a cell.
     pub(crate) fn is_open(&self, face: usize, at: [usize; 3]) -> bool {
         let Face { open, axis, .. } = self.faces[face];
@@ -75,7 +80,7 @@ impl Mesh {
 
     /// What fills a voxel of a cell.
     pub(crate) fn code(&self, cell: usize, voxel: [usize; 3]) -> u8 {
-        self.codes[self.k.pow(3) * cell + self.bit(voxel)]
+        self.codes[self.k * self.k * self.k * cell + self.bit(voxel)]
     }
 
     /// What fills a voxel of a cell, by the lattice.

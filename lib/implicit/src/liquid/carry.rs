@@ -68,9 +68,10 @@ impl Kept {
             let whole = inner.holds(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
             Some((cell, whole))
         };
+        let old_cells: Vec<_> = (0..new.pores.len()).into_par_iter().map(old_cell).collect();
         let found = |face: usize| {
             let f = new.faces[face];
-            let [low, high] = f.ends().map(old_cell);
+            let [low, high] = f.ends().map(|pore| old_cells[pore]);
             let (low, high) = low.zip(high)?;
             let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
             let index = face - new.faces_of(cell, axis).start;
@@ -79,7 +80,7 @@ impl Kept {
             let periodic = new.boundary[1] == Boundary::Periodic;
             Some((old_face as u32, low.1 && high.1 && !by_gap && !periodic))
         };
-        Self((0..new.faces.len()).map(found).collect())
+        Self((0..new.faces.len()).into_par_iter().map(found).collect())
     }
 
     /// The face of the other mesh that a face is, where it has the same surroundings.
@@ -89,31 +90,33 @@ impl Kept {
     }
 }
 
-/// Rows of the mesh `old` that a row of `new` is or overlaps, with the part of each that does: both gaps have the same height.
-fn overlapping(new: &Mesh, old: &Mesh, row: usize) -> Vec<(usize, f64)> {
-    if new.rows().kind(row) != RowKind::Gap {
-        return same_row(new, old, row)
-            .map(|row| (row, 1.0))
-            .into_iter()
-            .collect();
-    }
+/// Rows of the mesh `old` that each row of the mesh `new` is or overlaps, with the part of it that does: both gaps have the
+/// same height.
+fn overlapping(new: &Mesh, old: &Mesh) -> Vec<Vec<(usize, f64)>> {
     let part = |row: usize, rows: usize| {
         let first = row as f64 / rows as f64;
         [first, first + 1.0 / rows as f64]
     };
-    let [low, high] = part(row - new.rows().below, new.rows().gap);
-    (0..old.rows().gap)
-        .filter_map(|index| {
-            let [l, h] = part(index, old.rows().gap);
-            let overlap = (high.min(h) - low.max(l)) * old.rows().gap as f64;
-            (overlap > 0.0).then(|| (index + old.rows().below - old.range.start, overlap))
-        })
-        .collect()
+    let of_row = |row: usize| {
+        if new.rows().kind(row) != RowKind::Gap {
+            let same = same_row(new, old, row).map(|row| (row, 1.0));
+            return same.into_iter().collect();
+        }
+        let [low, high] = part(row - new.rows().below, new.rows().gap);
+        (0..old.rows().gap)
+            .filter_map(|index| {
+                let [l, h] = part(index, old.rows().gap);
+                let overlap = (high.min(h) - low.max(l)) * old.rows().gap as f64;
+                (overlap > 0.0).then(|| (index + old.rows().below - old.range.start, overlap))
+            })
+            .collect()
+    };
+    new.range.clone().map(of_row).collect()
 }
 
 /// Volumes of `old` on `new`; what the last row of a gap held that is gone goes to the pores beside it.
 pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
-    let sum = |parts: &[(f64, f64)]| parts.iter().map(|&(part, volume)| part * volume).sum();
+    let sum = |parts: &mut dyn Iterator<Item = (f64, f64)>| parts.map(|(part, of)| part * of).sum();
     let mut carried = of_pores(new, old, volumes, sum);
     if new.rows().gap == 0 && old.rows().gap > 0 {
         for row in old.rows().below..old.rows().below + old.rows().gap {
@@ -136,9 +139,10 @@ pub(crate) fn carried_pressures(new: &Mesh, old: &Mesh, pressure: &[f64]) -> Vec
 }
 
 /// Mean of values by their parts.
-fn mean(parts: &[(f64, f64)]) -> f64 {
-    let all: f64 = parts.iter().map(|of| of.0).sum();
-    let sum: f64 = parts.iter().map(|&(part, value)| part * value).sum();
+fn mean(parts: &mut dyn Iterator<Item = (f64, f64)>) -> f64 {
+    let (all, sum) = parts.fold((0.0, 0.0), |(all, sum), (part, value)| {
+        (all + part, sum + part * value)
+    });
     if all > 0.0 { sum / all } else { 0.0 }
 }
 
@@ -148,31 +152,30 @@ fn of_pores(
     new: &Mesh,
     old: &Mesh,
     values: &[f64],
-    join: impl Fn(&[(f64, f64)]) -> f64 + Sync,
+    join: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64 + Sync,
 ) -> Vec<f64> {
+    let rows = overlapping(new, old);
     let value = |pore: usize| {
         let cell = new.cell(pore);
         let index = pore - new.pores_of(cell).start;
         let at = |cell: usize| old.pores_of(cell).nth(index);
-        joined(new, old, cell, at, values, &join)
+        joined((new, old, &rows), cell, at, values, &join)
     };
     (0..new.pores.len()).into_par_iter().map(value).collect()
 }
 
-/// A value in a cell of `new` from those of `old` in the cells of its row, or of the rows of the gap that overlap it: 0 where
-/// one is `at` no place there.
+/// A value in a cell of `new` from those of `old` in the cells of the `rows` that its own is or overlaps: 0 where one is
+/// `at` no place there.
 fn joined(
-    new: &Mesh,
-    old: &Mesh,
+    (new, old, rows): (&Mesh, &Mesh, &[Vec<(usize, f64)>]),
     cell: usize,
     at: impl Fn(usize) -> Option<usize>,
     values: &[f64],
-    join: impl Fn(&[(f64, f64)]) -> f64,
+    join: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64,
 ) -> f64 {
-    let [x, _, z] = new.place(cell);
+    let [x, y, z] = new.place(cell);
     let value = |y: usize| at(old.cell_at([x, y, z])).map_or(0.0, |at| values[at]);
-    let rows = overlapping(new, old, new.row(cell)).into_iter();
-    join(&rows.map(|(y, part)| (part, value(y))).collect::<Vec<_>>())
+    join(&mut rows[y].iter().map(|&(y, part)| (part, value(y))))
 }
 
 /// The pores above and below a pore of a gap that is gone, or those of the nearest in the gap that have some.
@@ -220,6 +223,7 @@ fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
 
 /// Values of the faces of `old`, velocities, on `new`.
 pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Vec<f64> {
+    let rows = overlapping(new, old);
     let value = |face: usize| {
         let f = new.faces[face];
         let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
@@ -229,11 +233,11 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
             true => 0.0,
             false => {
                 let at = |cell: usize| old.faces_of(cell, axis).nth(index);
-                joined(new, old, cell, at, velocity, mean)
+                joined((new, old, &rows), cell, at, velocity, mean)
             }
         }
     };
-    (0..new.faces.len()).map(value).collect()
+    (0..new.faces.len()).into_par_iter().map(value).collect()
 }
 
 #[cfg(test)]

@@ -18,6 +18,9 @@ pub(crate) struct Profile<'a> {
 /// Velocities of the columns of voxels at a side of a pore, by their place across: the first axis runs fastest.
 type Columns = [Option<f64>; 4];
 
+/// The pores behind the voxel faces at the sides of a pore, by axis, side and place across.
+type Around = [[[Option<u32>; 4]; 2]; 3];
+
 /// What one side of a column asks of u(y) - mean = a y + c (y^2 - h^2/12): that `slope` times a, away from the column's
 /// middle, and `curvature` times c add up to `difference`.
 #[derive(Clone, Copy, Debug)]
@@ -67,14 +70,15 @@ fn parabola([low, high]: [Side; 2]) -> [f64; 2] {
 
 impl Profile<'_> {
     /// Velocities at the middles of the voxels of a pore, in their order, cells/s.
-    pub(crate) fn of_pore(&self, pore: usize) -> Vec<[f64; 3]> {
+    pub(crate) fn of_pore(&self, pore: usize) -> impl Iterator<Item = [f64; 3]> {
+        let around = self.around(pore);
         let sides: [[Columns; 2]; 3] = std::array::from_fn(|axis| {
             [false, true].map(|up| match self.lattice.flat && axis == 2 {
                 true => [None; 4],
-                false => self.columns(pore, axis, up),
+                false => self.columns(pore, &around, axis, up),
             })
         });
-        let at = |voxel: [usize; 3]| {
+        let at = move |voxel: [usize; 3]| {
             std::array::from_fn(|axis| {
                 let [(first, low), (last, high)] = [false, true]
                     .map(|up| self.end(pore, voxel, &sides[axis][usize::from(up)], axis, up));
@@ -88,7 +92,20 @@ impl Profile<'_> {
                 own + between(low, high)
             })
         };
-        self.mesh.voxels(pore).map(at).collect()
+        self.mesh.voxels(pore).map(at)
+    }
+
+    fn around(&self, pore: usize) -> Around {
+        let mut around = Around::default();
+        for way in self.mesh.ways(pore) {
+            let open = self.mesh.faces[way.face].open;
+            for (place, beside) in around[way.axis][usize::from(way.up)].iter_mut().enumerate() {
+                if open >> place & 1 == 1 {
+                    *beside = Some(way.beside as u32);
+                }
+            }
+        }
+        around
     }
 
     /// Velocity of a pore by the means of its faces on the two sides along each axis, cells/s.
@@ -128,13 +145,12 @@ impl Profile<'_> {
         up: bool,
     ) -> (f64, Option<f64>) {
         let mesh = self.mesh;
-        let cell = mesh.cell(pore);
         let mut last = voxel;
         let end = if up { mesh.k - 1 } else { 0 };
         while last[axis] != end {
             let mut next = last;
             next[axis] = if up { last[axis] + 1 } else { last[axis] - 1 };
-            if mesh.pore_with(cell, next) != Some(pore) {
+            if !mesh.holds(pore, next) {
                 return ((last[axis] + usize::from(up)) as f64, Some(0.0));
             }
             last = next;
@@ -149,15 +165,8 @@ impl Profile<'_> {
         self.velocity[face] != 0.0
     }
 
-    /// The face by which a voxel at the side of a pore is open to the next cell.
-    fn face(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> Option<usize> {
-        let at_side = voxel[axis] == if up { self.mesh.k - 1 } else { 0 };
-        let mut faces = self.mesh.faces_at(pore, axis, up);
-        faces.find(|&face| at_side && self.mesh.is_open(face, voxel))
-    }
-
     /// Velocities against the grid of the columns of voxels at one side of a pore: 0 at walls, none where the liquid ends.
-    fn columns(&self, pore: usize, axis: usize, up: bool) -> Columns {
+    fn columns(&self, pore: usize, around: &Around, axis: usize, up: bool) -> Columns {
         let (mesh, across) = (self.mesh, others(axis));
         let k = mesh.k;
         let mut side: Columns = [Some(0.0); 4];
@@ -169,7 +178,7 @@ impl Profile<'_> {
                     let mut voxel = [0; 3];
                     voxel[axis] = if up { k - 1 } else { 0 };
                     voxel[other] = place;
-                    self.add_departures(face, pore, voxel, t, |at, departure| {
+                    self.add_departures(face, (pore, around), voxel, t, |at, departure| {
                         departures[at[across[0]] + k * at[across[1]]] += departure;
                     });
                 }
@@ -187,7 +196,7 @@ impl Profile<'_> {
     fn add_departures(
         &self,
         face: usize,
-        pore: usize,
+        (pore, around): (usize, &Around),
         mut voxel: [usize; 3],
         t: usize,
         mut add: impl FnMut([usize; 3], f64),
@@ -201,7 +210,7 @@ impl Profile<'_> {
         let sides = [(first, false), (last, true)].map(|(i, up)| {
             let mut end = voxel;
             end[t] = i;
-            self.side(face, pore, end, t, up, height)
+            self.side(face, (pore, around), end, (t, up), height)
         });
         let [slope, curvature] = parabola(sides);
         let middle = 0.5 * (first + last + 1) as f64;
@@ -229,10 +238,9 @@ impl Profile<'_> {
     fn side(
         &self,
         face: usize,
-        pore: usize,
+        (pore, around): (usize, &Around),
         voxel: [usize; 3],
-        t: usize,
-        up: bool,
+        (t, up): (usize, bool),
         height: f64,
     ) -> Side {
         let mesh = self.mesh;
@@ -245,7 +253,9 @@ impl Profile<'_> {
         let open = match voxel[t] == if up { mesh.k - 1 } else { 0 } {
             false => mesh.pore_with(cell, next),
             true => {
-                (self.face(pore, voxel, t, up)).map(|face| mesh.faces[face].ends()[usize::from(up)])
+                let [a, b] = others(t);
+                let beside = around[t][usize::from(up)][voxel[a] + mesh.k * voxel[b]];
+                beside.map(|pore| pore as usize)
             }
         };
         let Some(open) = open else {
@@ -258,7 +268,8 @@ impl Profile<'_> {
                 false => Side::free(height),
             };
         };
-        let other = self.face(open, next, axis, f.low as usize == pore);
+        let mut others = mesh.faces_at(open, axis, f.low as usize == pore);
+        let other = others.find(|&other| mesh.is_open(other, next));
         let Some(other) = other.filter(|&other| other != face && self.moves(other)) else {
             return Side::free(height);
         };

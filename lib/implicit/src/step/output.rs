@@ -10,8 +10,28 @@ use crate::system::FlowField;
 impl Implicit {
     /// The points of the liquid.
     pub(super) fn points(&self) -> LiquidState {
-        let (setup, mesh, pressure) = (&self.setup, &self.mesh, &self.state.flow.pressure);
-        let (rates, place) = (self.rates(), setup.place);
+        let (mut state, shown) = self.filled_voxels();
+        let (rates, pascal) = (self.rates(), self.setup.units.viscosity);
+        for &pore in &shown {
+            let pressure = self.state.flow.pressure[pore] * pascal;
+            for _ in 0..self.mesh.pores[pore].voxels.count_ones() {
+                state.pressure.push(pressure as f32);
+                state.shear_rate.push(rates[pore] as f32);
+                (state.solids).extend(self.solids_of(pore).map(|solids| solids as f32));
+            }
+        }
+        let (profile, cell_m) = (self.profile(), self.setup.place.cell_m);
+        let velocities = |&pore: &usize| {
+            let velocities = profile.of_pore(pore);
+            velocities.map(|velocity| velocity.map(|v| (v * cell_m) as f32))
+        };
+        state.velocity = shown.par_iter().flat_map_iter(velocities).collect();
+        state
+    }
+
+    /// Positions and volumes of the points alone, and their pores.
+    pub(super) fn filled_voxels(&self) -> (LiquidState, Vec<usize>) {
+        let (mesh, place) = (&self.mesh, self.setup.place);
         let mut state = LiquidState::default();
         let mut shown = Vec::new();
         for pore in 0..mesh.pores.len() {
@@ -35,19 +55,9 @@ impl Implicit {
                     (place.origin_m[a] + place.cell_m * cells) as f32
                 }));
                 state.volume.push((volume * place.cell_m.powi(3)) as f32);
-                let pressure = pressure[pore] * setup.units.viscosity;
-                state.pressure.push(pressure as f32);
-                state.shear_rate.push(rates[pore] as f32);
-                (state.solids).extend(self.solids_of(pore).map(|solids| solids as f32));
             }
         }
-        let profile = self.profile();
-        let velocities = |&pore: &usize| {
-            let velocities = profile.of_pore(pore).into_iter();
-            velocities.map(|velocity| velocity.map(|v| (v * place.cell_m) as f32))
-        };
-        state.velocity = shown.par_iter().flat_map_iter(velocities).collect();
-        state
+        (state, shown)
     }
 
     /// Shear rates of pores in the gap of now: the last step's are of that in its middle.

@@ -46,6 +46,10 @@ impl Scheme for Implicit {
         self.points()
     }
 
+    fn filling(&self) -> LiquidState {
+        self.filled_voxels().0
+    }
+
     fn displacements(&self) -> Vec<[f64; 3]> {
         self.state.displacement.clone()
     }

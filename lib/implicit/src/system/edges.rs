@@ -180,9 +180,13 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
         .filter(|&t| !(lattice.flat && t == 2))
     {
         for up in [false, true] {
+            if clear {
+                found.extend(clear_edge(mesh, face, t, up));
+                continue;
+            }
             let first = found.len();
             for r in 0..mesh.k {
-                let Some(edge) = edge(mesh, (face, clear), t, up, r) else {
+                let Some(edge) = edge(mesh, face, t, up, r) else {
                     continue;
                 };
                 match found[first..]
@@ -197,8 +201,29 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
     }
 }
 
-/// The edge at one side of column `r` of a face along `t`, of a face that is `clear` of walls or not.
-fn edge(mesh: &Mesh, (face, clear): (usize, bool), t: usize, up: bool, r: usize) -> Option<Edge> {
+/// The edge at one side of a face along `t` where all cells around are open: one pore each, one face between two.
+fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
+    let f = mesh.faces[face];
+    let cells = f.ends().map(|pore| mesh.cell(pore));
+    let beside = [
+        mesh.neighbour(cells[0], t, up)?,
+        mesh.neighbour(cells[1], t, up)?,
+    ];
+    let first = |cell: usize, axis: usize| mesh.faces_of(cell, axis).start as u32;
+    let k = mesh.k as u8;
+    Some(Edge {
+        next: first(beside[0], f.axis.into()),
+        across: if up { cells } else { beside }.map(|cell| first(cell, t)),
+        factor: 1.0,
+        shared: if up { k as i8 } else { -(k as i8) },
+        open: [k; 2],
+        aside: [k; 2],
+        t: t as u8,
+    })
+}
+
+/// The edge at one side of column `r` of a face along `t`.
+fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
@@ -244,10 +269,7 @@ fn edge(mesh: &Mesh, (face, clear): (usize, bool), t: usize, up: bool, r: usize)
         at
     };
     let reentrant = |half: usize| mesh.reentrant((cells[half], own_voxel(half)), [t, across], up);
-    let factor = match clear {
-        true => 1.0,
-        false => (0.5 * (0..2).map(reentrant).sum::<f64>()).exp(),
-    };
+    let factor = (0.5 * (0..2).map(reentrant).sum::<f64>()).exp();
     Some(Edge {
         next: next as u32,
         across: [beside_low as u32, beside_high as u32],

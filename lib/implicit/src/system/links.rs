@@ -167,7 +167,8 @@ impl Channels<'_> {
             }
             let column = Column {
                 height,
-                widths: [along, width(across)],
+                // Two voxels tell of walls on the other axis by themselves.
+                widths: [along, if k == 1 { width(across) } else { along }],
             };
             // Beyond the corner of a wall that the flow passes, the wall ahead of liquid at rest beside it.
             for (code, (_, up)) in both[1 - half].into_iter().zip(corner) {
@@ -193,7 +194,11 @@ impl Channels<'_> {
                 } else {
                     mesh.lowest(f.low as usize)
                 };
-                let factor = (lowest * mesh.reentrant(at, [t, across], up)).exp();
+                // A re-entrant edge at the voxel would be a step within the cell.
+                let factor = match near < 1.0 {
+                    true => 1.0,
+                    false => (lowest * mesh.reentrant(at, [t, across], up)).exp(),
+                };
                 let friction = factor * part / (distance + self.influence_length);
                 link.add(half, friction, self.sliding(code, face, axis));
                 link.area += part;
