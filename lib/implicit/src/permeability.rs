@@ -184,7 +184,7 @@ impl Through {
             volume_source: &none,
             carried: &none,
         };
-        let mut solver = SaddleSolver::new(SaddleOptions {
+        let solver = SaddleSolver::new(SaddleOptions {
             tolerance: TOLERANCE,
             max_iterations: ITERATIONS,
         });

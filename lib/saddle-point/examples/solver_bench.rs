@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn row(case: Case, tolerance: f64) -> Result<(), Box<dyn Error>> {
     let problem = Problem::new(&case)?;
     let (mut u, mut p) = problem.rest();
-    let mut solver = SaddleSolver::new(SaddleOptions {
+    let solver = SaddleSolver::new(SaddleOptions {
         tolerance,
         ..SaddleOptions::default()
     });

@@ -11,20 +11,15 @@ use crate::preconditioner::Preconditioner;
 use crate::system::SaddleSystem;
 use crate::vector::{Real, add_scaled, for_each};
 
-/// Solver of [`SaddleSystem`]s; keeps its memory from one step to the next, nothing else.
-#[derive(Default)]
-pub struct SaddleSolver {
-    options: SaddleOptions,
-    space: KrylovSpace,
-}
+/// Solver of [`SaddleSystem`]s. It keeps nothing: the vectors of an iteration would stand beside the next matrix as that is
+/// assembled, which takes the most memory.
+#[derive(Clone, Copy, Default)]
+pub struct SaddleSolver(SaddleOptions);
 
 impl SaddleSolver {
     /// A solver with given settings.
     pub fn new(options: SaddleOptions) -> Self {
-        Self {
-            options,
-            space: KrylovSpace::default(),
-        }
+        Self(options)
     }
 
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
@@ -39,7 +34,7 @@ impl SaddleSolver {
     /// [`SolveError::NotConverged`] up to [`NEARLY`](super::NEARLY) times the tolerance, with the
     /// best `u` and `p` found, and [`SolveError::Unsolved`] beyond it.
     pub fn solve(
-        &mut self,
+        &self,
         system: &SaddleSystem,
         u: &mut [f64],
         p: &mut [f64],
@@ -47,12 +42,12 @@ impl SaddleSolver {
         system.check(u, p)?;
         let rhs = system.right_hand_side();
         let known = system.measure(system.b, system.volume_source);
-        let (options, space) = (&self.options, &mut self.space);
+        let (options, mut space) = (&self.0, KrylovSpace::default());
         let measure = Measure::new(system, options, 0.0);
         solved(system, u, p, |operator, preconditioner, x| {
             measure.stages(options, |limits| {
                 limits.size = measure.of(known, x);
-                fgmres(operator, preconditioner, &rhs, x, *limits, space)
+                fgmres(operator, preconditioner, &rhs, x, *limits, &mut space)
             })
         })
     }
@@ -63,7 +58,7 @@ impl SaddleSolver {
     /// # Errors
     /// As [`SaddleSolver::solve`].
     pub fn solve_loaded(
-        &mut self,
+        &self,
         system: &SaddleSystem,
         load: &Load,
         u: &mut [f64],
@@ -78,7 +73,7 @@ impl SaddleSolver {
         rhs.push(0.0);
         // The force row weighs as much as the others do with the body moving.
         let resting = system.measure(system.b, system.volume_source);
-        let (options, space) = (&self.options, &mut self.space);
+        let (options, mut space) = (&self.0, KrylovSpace::default());
         let measure = Measure::new(system, options, 1.0);
         solved(system, u, p, |inner, preconditioner, x| {
             x.push(0.0);
@@ -94,7 +89,7 @@ impl SaddleSolver {
                 };
                 let mut bordered = Bordered::new(preconditioner, &followed, weight);
                 add_scaled(&mut x[..shares.len()], -*speed, &shares);
-                let result = fgmres(&mut operator, &mut bordered, &rhs, x, *limits, space);
+                let result = fgmres(&mut operator, &mut bordered, &rhs, x, *limits, &mut space);
                 *speed = weight * x[last];
                 add_scaled(&mut x[..shares.len()], *speed, &shares);
                 result

@@ -3,8 +3,6 @@
 use std::mem::take;
 use std::time::Instant;
 
-use saddle_point::SaddleSolver;
-
 use super::Implicit;
 use super::compression::Compression;
 use super::exchange::Exchange;
@@ -158,9 +156,9 @@ impl Implicit {
         drive: Drive,
         guess: &mut Flow,
     ) -> Result<Solved, String> {
-        let (mut solver, mut clock) = (take(&mut self.solver), take(&mut self.clock));
-        let solved = self.in_passes(middle, drive, guess, &mut solver, &mut clock);
-        (self.solver, self.clock) = (solver, clock);
+        let mut clock = take(&mut self.clock);
+        let solved = self.in_passes(middle, drive, guess, &mut clock);
+        self.clock = clock;
         solved
     }
 
@@ -169,7 +167,6 @@ impl Implicit {
         middle: &Middle,
         drive: Drive,
         guess: &mut Flow,
-        solver: &mut SaddleSolver,
         clock: &mut Clock,
     ) -> Result<Solved, String> {
         let (setup, mesh, dt) = (&self.setup, &self.mesh, middle.dt);
@@ -192,7 +189,7 @@ impl Implicit {
             let holds;
             let driven = (middle, drive);
             (flow, forces, holds) =
-                self.solve_pass(driven, &unknowns, viscosities, ends, &last, (solver, clock))?;
+                self.solve_pass(driven, &unknowns, viscosities, ends, &last, clock)?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;
@@ -265,7 +262,7 @@ impl Implicit {
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
         guess: &Flow,
-        (solver, clock): (&mut SaddleSolver, &mut Clock),
+        clock: &mut Clock,
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let (dt, full, fractions) = (middle.dt, &middle.full, &middle.fractions);
@@ -307,7 +304,7 @@ impl Implicit {
                 *carried += exchange.gained[pore] / dt;
             }
         }
-        let flow = solve(&problem, &carried, drive, guess, solver, clock)
+        let flow = solve(&problem, &carried, drive, guess, &self.solver, clock)
             .map_err(|error| unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());

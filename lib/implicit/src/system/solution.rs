@@ -64,7 +64,7 @@ pub(crate) fn solve(
     carried: &[f64],
     drive: Drive,
     guess: &Flow,
-    solver: &mut SaddleSolver,
+    solver: &SaddleSolver,
     clock: &mut Clock,
 ) -> Result<Flow, SolveError> {
     let begun = Instant::now();

@@ -10,7 +10,7 @@ fn the_solution_is_its_own_guess() {
     let problem = Problem::new(&SMALL).unwrap();
     let (mut u, mut p, _) = solve(&problem, 1e-6).unwrap();
     let kept = u.clone();
-    let mut solver = SaddleSolver::new(options(2e-6));
+    let solver = SaddleSolver::new(options(2e-6));
     let report = solver.solve(&problem.system(), &mut u, &mut p).unwrap();
     assert_eq!(report.iterations(), 0);
     assert_eq!(u, kept);
@@ -40,7 +40,7 @@ fn failures_are_reported() {
         matches!(few, SolveError::NotConverged { iterations: 3, residual, .. } if (1e-8..0.5).contains(&residual)),
         "{few}"
     );
-    let mut solver = SaddleSolver::new(options(1e-3));
+    let solver = SaddleSolver::new(options(1e-3));
     let mut error = |u: &mut [f64], problem: &Problem| {
         let solved = solver.solve(&problem.system(), u, &mut p);
         solved.unwrap_err()

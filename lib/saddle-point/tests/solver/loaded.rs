@@ -46,7 +46,7 @@ fn drives(times: f64) {
     .unwrap();
     let dragged = problem.b.clone();
     let bound = bind(&mut problem, times);
-    let mut solver = SaddleSolver::new(options(1e-7));
+    let solver = SaddleSolver::new(options(1e-7));
     let (mut u, mut p) = problem.rest();
     let moving = SaddleSystem {
         standing: &bound,

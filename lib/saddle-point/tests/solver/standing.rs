@@ -13,7 +13,7 @@ fn loaded(
     mut p: Vec<f64>,
     mut speed: f64,
 ) -> (Vec<f64>, Vec<f64>, f64, SaddleReport) {
-    let mut solver = SaddleSolver::new(options(1e-3));
+    let solver = SaddleSolver::new(options(1e-3));
     let report = solver.solve_loaded(system, load, &mut u, &mut p, &mut speed);
     (u, p, speed, report.unwrap())
 }
@@ -75,7 +75,7 @@ fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
     for guess in [0.0, exact, -1000.0 * exact] {
         let (u, p) = (vec![guess; faces], vec![-pull; cells]);
         let (mut flow, mut pressure) = (u.clone(), p.clone());
-        let mut solver = SaddleSolver::new(options(1e-3));
+        let solver = SaddleSolver::new(options(1e-3));
         let report = solver.solve(&system, &mut flow, &mut pressure).unwrap();
         let (u, _, speed, _) = loaded(&system, &load, u, p, 20.0 * guess);
         let errors = [flow[30] / exact, u[30] / drawn, speed / (20.0 * drawn)].map(|x| x - 1.0);
@@ -191,7 +191,7 @@ fn an_opening_relieves_much_liquid() {
     let mut problem = Problem::still(g.unwrap(), friction, 1e-12);
     problem.volume_source[n * n - 1] = 3.0;
     let (mut u, mut p) = problem.rest();
-    let mut solver = SaddleSolver::new(options(1e-3));
+    let solver = SaddleSolver::new(options(1e-3));
     let report = solver.solve(&problem.system(), &mut u, &mut p).unwrap();
     let iterations = report.iterations();
     println!("{:.4} of 3 out, {iterations} iterations", u[hole]);
