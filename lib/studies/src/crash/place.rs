@@ -11,7 +11,7 @@ use crate::Result;
 use crate::case_text::{Body, CaseText};
 use crate::method::Scheme;
 use crate::outputs::bin_folder;
-use crate::study::{ended, said};
+use crate::study::done;
 
 /// Keys of `summary.json` that say what a run cost, which no two runs share.
 const COSTS: [&str; 5] = [
@@ -90,15 +90,8 @@ impl Place {
     }
 
     /// Runs it as a user would.
-    ///
-    /// # Errors
-    /// What it said where it did not end well.
     pub(super) fn done(&self, more: &[&str]) -> Result<()> {
-        let output = ended(&mut self.command(&[], more))?;
-        match output.status.success() {
-            true => Ok(()),
-            false => Err(format!("{:?}: {}", output.status, said(&output)).into()),
-        }
+        done(&mut self.command(&[], more)).map(drop)
     }
 
     /// The files below the run folder, by name.
@@ -117,9 +110,6 @@ impl Place {
     }
 
     /// Lets a run end, which must hold the same as `whole`.
-    ///
-    /// # Errors
-    /// What it said, or what differs.
     pub(super) fn ends_like(&self, whole: &Place, more: &[&str]) -> Result<()> {
         self.done(more).map_err(|said| format!("then {said}"))?;
         whole.same(self)
@@ -127,9 +117,6 @@ impl Place {
 
     /// Whether another's run folder holds the same: all files byte for byte, the costs in `summary.json`
     /// aside.
-    ///
-    /// # Errors
-    /// The first file that differs.
     pub(super) fn same(&self, other: &Place) -> Result<()> {
         let (one, other) = (self.content(), other.content());
         if !one.keys().eq(other.keys()) {
