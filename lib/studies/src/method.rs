@@ -153,9 +153,6 @@ impl Method {
     }
 
     /// The same, which must end well.
-    ///
-    /// # Errors
-    /// What `mpm-run` said on standard error, with its exit status.
     pub(crate) fn run(&self, case: &Path, folder: &Path, more: &[&str]) -> Result<Run> {
         let output = self.attempt(case, folder, more)?;
         if !output.status.success() {

@@ -67,9 +67,6 @@ pub(super) struct Table {
 
 impl Table {
     /// Runs `scenes` of `scheme` in `folder`.
-    ///
-    /// # Errors
-    /// What a run said; that there is no valgrind; that no scene has a stage, because its functions are gone or were inlined.
     pub(super) fn measure(scheme: Scheme, scenes: Vec<Scene>, folder: &Path) -> Result<Self> {
         let counts: Result<Vec<Vec<f64>>> =
             side_by_side(&scenes, |scene| count(scheme, scene, folder));

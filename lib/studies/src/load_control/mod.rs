@@ -87,9 +87,6 @@ impl Course {
 }
 
 /// The press `shape` at both Courant numbers, run in `folder`.
-///
-/// # Errors
-/// What a run said.
 pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result<Row> {
     let name = format!("{}-{pressure}-{viscosity}", shape.name.replace(' ', "-"));
     let text = shape
@@ -123,9 +120,6 @@ pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result
 }
 
 /// The study.
-///
-/// # Errors
-/// What a run or the system said.
 pub fn run(study: &Study) -> Result<bool> {
     let mut wanted = Vec::new();
     for shape in SHAPES.into_iter().filter(|shape| study.wants(shape.name)) {

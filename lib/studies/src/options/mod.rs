@@ -50,9 +50,6 @@ fn scenes() -> Vec<Scene> {
 }
 
 /// The study, on the scenes so named.
-///
-/// # Errors
-/// The system's reason.
 pub fn run(study: &Study) -> Result<bool> {
     let mut scenes = scenes();
     scenes.retain(|s| study.wants(&s.name));
@@ -69,14 +66,11 @@ pub fn run(study: &Study) -> Result<bool> {
     let rows = outcomes.iter().flat_map(fields);
     study.write_csv("explicit-options.csv", columns, rows)?;
     let head = study.head(outcomes.iter().map(|o| o.cpu_s));
-    let page = PAGE.replace("{head}", &head);
-    let page = page.replace("{table}", &table(&scenes, &outcomes));
+    let values = [("head", &*head), ("table", &table(&scenes, &outcomes))];
+    let page = study::filled(include_str!("page.txt"), &values);
     study.write("explicit-options.md", page)?;
     Ok(true)
 }
-
-/// The page around the table.
-const PAGE: &str = include_str!("page.txt");
 
 /// The errors of a run, or why there are none.
 fn fields(o: &Outcome) -> Vec<Vec<String>> {

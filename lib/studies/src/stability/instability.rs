@@ -88,9 +88,6 @@ pub fn trials() -> Vec<Trial> {
 
 impl Trial {
     /// Runs it below `folder`.
-    ///
-    /// # Errors
-    /// What is not as it must be.
     pub fn run(&self, folder: &Path) -> Result<Row> {
         let run = Run {
             folder: folder.join("run"),
@@ -186,9 +183,6 @@ fn last_step(run: &Run) -> Result<u64> {
 
 /// How many particle files the run folder holds, all whole and without a value that is not a number;
 /// the history likewise.
-///
-/// # Errors
-/// The file that is not so.
 fn sound_files(run: &Run) -> Result<usize> {
     let mut paths = vec![run.folder.join("checkpoint.mpts")];
     paths.push(run.folder.join("final.mpts"));
@@ -226,8 +220,8 @@ fn sound(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The rows as a section of the page.
-pub(super) fn section(rows: &[Result<Row>]) -> String {
+/// The rows as a table of the page.
+pub(super) fn lines(rows: &[Result<Row>]) -> String {
     let line = |row: &Result<Row>| match row {
         Ok(row) => {
             let then = match &row.then {
@@ -244,15 +238,5 @@ pub(super) fn section(rows: &[Result<Row>]) -> String {
     };
     let heads =
         "| run | CFL | checkpoint after step | last step | files left | said | then CFL | and it |";
-    format!("{SECTION}{}", table(heads, rows.iter().map(line)))
+    table(heads, rows.iter().map(line))
 }
-
-const SECTION: &str = "
-## checkpoint before an instability
-
-Runs told to stop (exit 75), resumed until they become unstable (exit 1), and resumed from the same
-checkpoint at a smaller Courant number, which is the one key of a case that may change on `--resume`.
-Checked: the checkpoint is left as it was; every particle file left is whole, and no number in them or
-in the history is a NaN or infinite.
-
-";

@@ -14,9 +14,6 @@ use crate::study::{Study, side_by_side};
 use trial::{Row, Trial, Verdict};
 
 /// The study, on what is varied or has a value so named.
-///
-/// # Errors
-/// What keeps a trial from being made.
 pub fn run(study: &Study) -> Result<bool> {
     let mut trials = plan::trials();
     trials.retain(|t| study.wants(t.varied) || study.wants(&t.value));
@@ -29,7 +26,7 @@ pub fn run(study: &Study) -> Result<bool> {
         .filter(|(_, trial)| study.wants(trial.scene))
         .map(|(i, trial)| trial.run(&study.folder().join(format!("checkpoint-{i}"))))
         .collect();
-    report::write(study, &rows, &instability::section(&unstable))?;
+    report::write(study, &rows, &instability::lines(&unstable))?;
     let broken = |row: &Row| matches!(row.verdict, Verdict::Broken(_));
     Ok(!rows.iter().any(broken) && unstable.iter().all(Result::is_ok))
 }

@@ -3,7 +3,7 @@
 use super::trial::{Row, Verdict};
 use crate::Result;
 use crate::method::Scheme;
-use crate::study::{Study, distinct, table};
+use crate::study::{Study, distinct, filled, table};
 
 impl Verdict {
     fn word(&self) -> &'static str {
@@ -37,8 +37,8 @@ fn number(x: f64) -> String {
 const COLUMNS: &str = "varied,value,method,cfl,verdict,part_computed,steps,cpu_s,energy_over_flow,\
 travel_over_full_speed,J_min,J_max,lost_points,balance_error,sentence,warning";
 
-/// Writes the table and the page, which ends with `more`.
-pub(super) fn write(study: &Study, rows: &[Row], more: &str) -> Result<()> {
+/// Writes the table and the page with the table of what was `unstable`.
+pub(super) fn write(study: &Study, rows: &[Row], unstable: &str) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let trial = &row.trial;
         let (cfl, verdict) = (trial.cfl.to_string(), row.verdict.word());
@@ -59,7 +59,7 @@ pub(super) fn write(study: &Study, rows: &[Row], more: &str) -> Result<()> {
     });
     study.write_csv("stability.csv", COLUMNS, fields)?;
     let head = study.head(rows.iter().map(|row| row.cpu_s));
-    study.write("stability.md", page(rows, &head) + more)
+    study.write("stability.md", page(rows, &head, unstable))
 }
 
 /// A line for the terminal.
@@ -81,16 +81,19 @@ pub(super) fn said(row: &Row) -> String {
 }
 
 /// The page; `head` says what made it.
-fn page(rows: &[Row], head: &str) -> String {
-    let mut out = format!("{INTRODUCTION}\n{head}\n");
-    summary(&mut out, rows);
-    not_stable(&mut out, rows);
-    closing(&mut out, rows);
-    out
+fn page(rows: &[Row], head: &str, unstable: &str) -> String {
+    let values = [
+        ("head", head),
+        ("summary", &summary(rows)),
+        ("not_stable", &not_stable(rows)),
+        ("closing", &closing(rows)),
+        ("instability", unstable),
+    ];
+    filled(include_str!("page.txt"), &values)
 }
 
 /// How many runs ended how, for each quantity varied.
-fn summary(out: &mut String, rows: &[Row]) {
+fn summary(rows: &[Row]) -> String {
     let words = ["stable", "noisy", "refused", "stopped", "BROKEN"];
     let line = |name: &str, of: &dyn Fn(&Row) -> bool| {
         let own: Vec<&Row> = rows.iter().filter(|row| of(row)).collect();
@@ -105,12 +108,11 @@ fn summary(out: &mut String, rows: &[Row]) {
         line(&name, &|row| row.trial.method.scheme == scheme)
     });
     let heads = format!("| varied | {} |", words.join(" | "));
-    *out += "## In short\n\n";
-    *out += &table(&heads, varied.chain(schemes));
+    table(&heads, varied.chain(schemes))
 }
 
 /// A row for each value at which methods ended in the same word, but for the stable ones.
-fn not_stable(out: &mut String, rows: &[Row]) {
+fn not_stable(rows: &[Row]) -> String {
     let unstable = rows.iter().filter(|row| row.verdict != Verdict::Stable);
     let rows: Vec<&Row> = unstable.collect();
     let kind = |row: &Row| {
@@ -126,12 +128,11 @@ fn not_stable(out: &mut String, rows: &[Row]) {
     };
     let kinds = distinct(rows.iter().map(|row| kind(row)));
     let heads = "| varied | value | ended | methods | said by the first |";
-    *out += "\n## Not stable\n\n";
-    *out += &table(heads, kinds.into_iter().map(line));
+    table(heads, kinds.into_iter().map(line))
 }
 
 /// How far the clamp of a press closes where the pressure limit holds it back.
-fn closing(out: &mut String, rows: &[Row]) {
+fn closing(rows: &[Row]) -> String {
     let methods = ["FLIP", "XPIC(5)", "APIC", "APIC, cell mean", "implicit"];
     let press = |row: &Row| (row.trial.varied, row.trial.value.clone());
     let locking = |row: &&Row| LOCKING.contains(&row.trial.varied);
@@ -147,38 +148,8 @@ fn closing(out: &mut String, rows: &[Row]) {
     };
     let presses = distinct(rows.iter().map(|row| press(row)));
     let heads = format!("| press | {} |", methods.join(" | "));
-    *out += CLOSING;
-    *out += &table(&heads, presses.into_iter().map(line));
+    table(&heads, presses.into_iter().map(line))
 }
 
 /// What is varied where the explicit scheme locks.
 const LOCKING: [&str; 3] = ["bulk modulus", "lumen width", "slab thickness"];
-
-const CLOSING: &str = "
-## How far a press closes
-
-Travel of the clamp over that at its closing speed; less than 1 where the pressure limit of 2.5 MPa holds it back. Where the explicit
-scheme's stays near 0 and the implicit one's does not, the liquid has locked (explicit-options.md).
-
-";
-
-const INTRODUCTION: &str = "# Stability on stiff and extreme cases
-
-`make stability` runs small scenes (lib/studies/src/stability) through the real `mpm-run`: a slab of PF 16
-cells wide and 4 thick, walls a quarter and half a cell off the nodes, pressed at 1 m/s and at most 2.5 MPa into
-a lumen of 6 cells by 1.5 cells of travel, and variations of it; sealed chambers; liquid torn apart;
-drops. One value is varied at a time; sticking walls and CFL 0.5 unless said. A run ends `stable`;
-`noisy`, when its kinetic energy was at some time more than ten times that of the scene's own motion; `refused`
-(exit 2) and `stopped` (exit 1) with a sentence; `BROKEN` would be a run that ended in values that
-are not numbers, in a signal or not at all, of which there must be none. All runs are in
-[stability.csv](stability.csv), where
-
-- `part_computed` is the part of the scene's motion that was computed: explicit runs take at most 20,000 steps; a balance of
-  forces then is of the start-up, not of the flow;
-- `energy_over_flow` is the largest kinetic energy over that of all liquid at the speed of the scene's own motion (in the lumen, for a press);
-- `travel_over_full_speed` is how far the clamp moved over how far it would have at its closing speed;
-- `J_min` and `J_max` are the volume ratios of the points at the end, from their pressures by Eq. 1;
-- `lost_points` left the domain or lie deeper than a point spacing in a wall;
-- `balance_error` is the difference of the mean forces on upper and lower body in the later half of the run over
-  the larger of them, or over rho v^2 if that is more; for free drops the change of mean velocity over the speed.
-";

@@ -101,9 +101,6 @@ impl Trial {
     }
 
     /// Runs it, with case and run folder below `folder`.
-    ///
-    /// # Errors
-    /// When its case cannot be written.
     pub(super) fn run(self, folder: &Path) -> Result<Row> {
         let whole = self.scene.duration;
         let seconds = match self.method.scheme {

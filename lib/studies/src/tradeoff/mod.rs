@@ -19,9 +19,6 @@ use settings::Setting;
 const DOUBLE: &str = "target/double/release/mpm-run";
 
 /// The study, with the settings so named.
-///
-/// # Errors
-/// What a tool said without which there is no bond line or no reference for it, or the system.
 pub fn run(study: &Study) -> Result<bool> {
     let mut settings = settings::all(Path::new(DOUBLE));
     settings.retain(|setting| study.wants(&setting.method.label));

@@ -41,9 +41,6 @@ use crate::outputs::Run;
 use crate::study::Study;
 
 /// The study, on the scenes so named; whether all runs ended.
-///
-/// # Errors
-/// The system's reason.
 pub fn run(study: &Study) -> Result<bool> {
     let mut entries = catalogue::all();
     entries.retain(|(scene, _)| study.wants(&scene.name));
