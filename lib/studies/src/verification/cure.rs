@@ -15,7 +15,7 @@ const SET: f64 = 1e6;
 /// How the viscosity grows by a law with one time, s: t_gel, or that of the last point.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
-    name: &'static str,
+    pub(super) name: &'static str,
     /// The time for an integral of 1/factor of so much, s.
     time: fn(f64) -> f64,
     /// Integral of 1/factor by that time up to another, s.

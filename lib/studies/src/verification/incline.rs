@@ -11,15 +11,13 @@ use crate::outputs::Run;
 /// Gravity of the earth along the floor and into it at 50 degrees, m/s2.
 const G: [f64; 2] = [7.514_896, 6.305_746];
 
-/// Time of the paper's figure, s; the film is steady after 1 us.
-pub(crate) const PAPER_TIME: f64 = 0.5e-3;
-
 /// Distance of the floor of a film of `n` cells from the low side of the domain, m.
 fn floor(n: u32, offset: f64) -> f64 {
     (3.0 + offset) * LUMEN / f64::from(n)
 }
 
-/// A film of `n` cells, its floor `offset` cells off the nodes, at time `until` (s).
+/// A film of `n` cells, its floor `offset` cells off the nodes, at time `until` (s): 0.5 ms in the
+/// paper's figure, and steady after 1 us.
 pub fn scene(n: u32, offset: f64, until: f64) -> Scene {
     let cell = LUMEN / f64::from(n);
     let (width, floor) = (4.0 * cell, floor(n, offset));

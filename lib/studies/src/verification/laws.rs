@@ -21,8 +21,6 @@ pub struct Law {
     force: f64,
     /// Above all shear rates, 1/s.
     fastest: f64,
-    /// Fewest cells: of a profile that is flat but for a thin layer, 3 show nothing, and passes do not settle.
-    pub(crate) coarsest: u32,
 }
 
 /// A table, linear in the logarithm of the shear rate: the stress grows with the rate everywhere, so that the profile is one.
@@ -33,7 +31,6 @@ pub const TABLE: Law = Law {
     yields: 0.0,
     force: 2.2e7,
     fastest: 1e6,
-    coarsest: 3,
 };
 
 const FORMULA: Law = Law {
@@ -54,7 +51,6 @@ pub const LAWS: [Law; 5] = [
         name: "law-power0.3",
         key: "power_law = { consistency = \"3000 Pa s^n\", index = 0.3, rates = [\"1 1/s\", \"1e6 1/s\"] }",
         eta: |rate| 3000.0 * rate.powf(-0.7),
-        coarsest: 6,
         ..FORMULA
     },
     Law {
@@ -74,7 +70,6 @@ pub const LAWS: [Law; 5] = [
         key: "herschel_bulkley = { yield_stress = \"40000 Pa\", consistency = \"250 Pa s^n\", index = 0.5, regularisation_rate = \"3 1/s\" }",
         eta: |rate| 40e3 / rate + 250.0 * rate.powf(-0.5),
         yields: 40e3,
-        coarsest: 6,
         ..FORMULA
     },
 ];
