@@ -9,7 +9,7 @@ mod runs;
 
 use runs::{A_QUARTER_THICKER, Mistake, Run, THICKER, lifted, short_steps, times};
 use studies::case_text::PF;
-use studies::load_control::{self, report::sound, scenes::SHAPES};
+use studies::load_control::{self, report::sound, scenes::shapes};
 use studies::method::Method;
 use studies::verification::lumen::Section;
 use studies::verification::{
@@ -327,7 +327,7 @@ fn the_clamp_keeps_its_limit_and_stops_when_closed() {
 #[test]
 fn a_clamp_at_its_limit_keeps_the_courant_number() {
     let folder = tempfile::tempdir().unwrap();
-    let film_under_air = SHAPES[1];
+    let film_under_air = shapes()[1];
     let rows = [(1e5, 1.3), (3e5, 1.3), (3e4, 6.0)].map(|(pressure, viscosity)| {
         load_control::row(film_under_air, pressure, viscosity, folder.path()).unwrap()
     });

@@ -101,6 +101,13 @@ impl Method {
         plain.into_iter().chain(filters).collect()
     }
 
+    /// The method of this label.
+    pub(crate) fn named(label: &str) -> Option<Self> {
+        let others = [Self::xpic(3), Self::fmpm(3), Self::implicit()];
+        let mut all = Self::updates().into_iter().chain(others);
+        all.find(|method| method.label == label)
+    }
+
     /// This method with another key set.
     pub fn setting(mut self, change: impl Into<String>) -> Self {
         self.set.push(change.into());

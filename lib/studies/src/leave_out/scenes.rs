@@ -3,7 +3,7 @@
 use super::stages::{CELL_MEAN, CONTACT, FILTER, LOAD, PROJECTION, Scene, TABLE};
 use crate::case_text::{Body, CaseText, Viscosity};
 use crate::method::Method;
-use crate::stability::plan::PVA_PF;
+use crate::stability::scenes::PVA_PF;
 use crate::verification::slit;
 
 /// Simulated time of a run of the explicit and of the implicit scheme, s: some steps of each scene.

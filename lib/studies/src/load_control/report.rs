@@ -1,6 +1,6 @@
 //! `load-control.csv` and `load-control.md`.
 
-use super::scenes::{SHAPES, Shape};
+use super::scenes::{Shape, shapes};
 use super::{COURANT, Course, Row, out_of_order};
 use crate::Result;
 use crate::numbers::{largest, mean};
@@ -81,7 +81,10 @@ fn page(rows: &[Row], head: &str) -> String {
     let values = [
         ("head", head),
         ("cfl", &format!("{} and {}", COURANT[0], COURANT[1])),
-        ("table", &table(heads, SHAPES.into_iter().filter_map(line))),
+        (
+            "table",
+            &table(heads, shapes().into_iter().filter_map(line)),
+        ),
         ("open", &open.to_string()),
         ("out_of_order", &out_of_order(rows).to_string()),
     ];

@@ -8,14 +8,13 @@ use std::time::Duration;
 
 use particle_file::{Kind, ParticleFile};
 
-use super::scenes::{Press, Scene, press, torn};
+use super::scenes::{self, Scene, torn};
 use crate::Result;
+use crate::lines::Values;
 use crate::method::Method;
 use crate::outputs::{Run, tool};
 use crate::study::{said, table, terminate, write};
 
-/// Cells along z: enough points that a signal comes before the instability.
-const DEPTH: u32 = 32;
 /// Attempts to stop a run in time, on a machine busy with other work.
 const ATTEMPTS: u32 = 5;
 
@@ -56,14 +55,14 @@ pub struct Row {
 /// All trials: the press beyond its viscous limit, stopped early and late, and a liquid that
 /// flies apart at any step.
 pub fn trials() -> Vec<Trial> {
+    // Enough cells along z that a signal comes before the instability.
+    let line = Values::all("press depth=32");
+    let press = scenes::of(&line[0]).expect("a scene");
     let pressed = |method: Method, stop_after| Trial {
         scene: "press",
         case: Scene {
             duration: 0.5e-6,
-            ..press(Press {
-                depth: DEPTH,
-                ..Press::default()
-            })
+            ..press.clone()
         },
         method,
         cfl: 1.2,
@@ -77,7 +76,7 @@ pub fn trials() -> Vec<Trial> {
         pressed(Method::xpic(5), 150),
         Trial {
             scene: "torn apart, 150 m/s",
-            case: torn(150.0).deep(2 * DEPTH),
+            case: torn(150.0).deep(64),
             method: cavitating.called("FLIP, cavitation"),
             cfl: 0.5,
             then: 0.1,

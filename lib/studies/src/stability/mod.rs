@@ -2,11 +2,10 @@
 //! Whatever a case asks for, the automatic time step keeps it stable or the run refuses it or
 //! stops with a reason; nothing ends in NaN silently.
 
-mod extremes;
 pub mod instability;
-pub(crate) mod plan;
+mod plan;
 mod report;
-mod scenes;
+pub(crate) mod scenes;
 mod trial;
 
 use crate::Result;

@@ -7,45 +7,21 @@ use super::{
     incline, jurin, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green,
     washburn, water, wicking,
 };
+use crate::lines::{self, Values};
 use crate::method::{Method, Scheme};
-
-const LINES: &str = include_str!("catalogue.txt");
 
 /// The scenes of all lines.
 pub(super) fn all() -> Vec<(Scene, Vec<Method>)> {
-    let lines = LINES
-        .lines()
-        .filter(|line| !line.is_empty() && !line.starts_with('#'));
-    lines
-        .flat_map(|line| {
-            let scenes = of_line(line);
-            scenes.unwrap_or_else(|| panic!("catalogue.txt: {line}"))
-        })
-        .collect()
-}
-
-/// Every combination of a line.
-fn of_line(line: &str) -> Option<Vec<(Scene, Vec<Method>)>> {
-    let (scene, methods) = line.split_once(" | ")?;
-    let mut words = scene.split(' ');
-    let name = words.next()?;
-    let mut all = vec![Vec::new()];
-    for (key, values) in words.filter_map(|word| word.split_once('=')) {
-        let with = |before: &Vec<_>, value| [&before[..], &[(key, value)]].concat();
-        let before = std::mem::take(&mut all);
-        for before in &before {
-            all.extend(values.split(',').map(|value| with(before, value)));
-        }
-    }
-    let mut scenes = Vec::new();
-    for values in all {
-        let values = Values(values);
-        let halves = ["0", "0.5"].contains(&values.word("off").unwrap_or("0"));
-        let mut methods: Vec<Method> = methods.split(' ').flat_map(of_word).collect();
-        methods.retain(|m| halves || m.scheme == Scheme::Explicit);
-        scenes.push((scene_of(name, &values)?, methods));
-    }
-    Some(scenes)
+    lines::read(include_str!("catalogue.txt"), |line| {
+        let (scene, methods) = line.split_once(" | ")?;
+        let entry = |values: Values| {
+            let halves = ["0", "0.5"].contains(&values.word("off").unwrap_or("0"));
+            let mut methods: Vec<Method> = methods.split(' ').flat_map(of_word).collect();
+            methods.retain(|m| halves || m.scheme == Scheme::Explicit);
+            Some((scene_of(&values)?, methods))
+        };
+        Values::all(scene).into_iter().map(entry).collect()
+    })
 }
 
 /// The methods that a word stands for.
@@ -56,39 +32,19 @@ fn of_word(word: &str) -> Vec<Method> {
         }
         None if word == "paper" => vec![Method::flip(), Method::xpic(5)],
         None if word == "updates" => Method::updates(),
-        None => {
-            let others = [Method::xpic(2), Method::implicit()];
-            let mut all = Method::updates().into_iter().chain(others);
-            all.find(|m| m.label == word).into_iter().collect()
-        }
+        None => Method::named(word).into_iter().collect(),
     }
 }
 
-/// One value of each list of a line.
-struct Values<'a>(Vec<(&'a str, &'a str)>);
-
-impl<'a> Values<'a> {
-    fn word(&self, key: &str) -> Option<&'a str> {
-        let of = |(name, value): &(&str, &'a str)| (*name == key).then_some(*value);
-        self.0.iter().find_map(of)
-    }
-
-    fn number(&self, key: &str) -> Option<f64> {
-        self.word(key)?.parse().ok()
-    }
-
-    fn section(&self) -> Option<Section> {
-        let all = [Section::Square, Section::Round(2), Section::Round(1)];
-        all.into_iter()
-            .find(|s| Some(s.name()) == self.word("section"))
-    }
-}
-
-fn scene_of(name: &str, of: &Values) -> Option<Scene> {
+fn scene_of(of: &Values) -> Option<Scene> {
     let n = || of.word("n")?.parse::<u32>().ok();
     let [off, degrees, eta] = ["off", "degrees", "eta"].map(|key| move || of.number(key));
-    let section = || of.section();
-    Some(match name {
+    let section = || {
+        let all = [Section::Square, Section::Round(2), Section::Round(1)];
+        all.into_iter()
+            .find(|s| of.word("section") == Some(s.name()))
+    };
+    Some(match of.name {
         "incline" => incline::scene(n()?, off()?, of.number("until")?),
         "channel" => channel::scene(n()?, off()?, of.number("slip"), 3e-6),
         "table" => laws::scene(laws::TABLE, n()?, 0.0, 0.4e-6),
