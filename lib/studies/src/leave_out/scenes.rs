@@ -25,7 +25,7 @@ fn scene(
 
 /// A drop without walls and a piston that pushes liquid into a slit, by FLIP and with one option of the explicit scheme each.
 pub(super) fn explicit() -> Vec<Scene> {
-    let flip = Method::flip;
+    let flip = || Method::named("FLIP");
     let [mean, projection] = [
         "integrator.pressure=\"cell-mean\"",
         "integrator.density_projection=\"0.01 cell\"",
@@ -45,7 +45,7 @@ pub(super) fn explicit() -> Vec<Scene> {
         drop(
             "XPIC(2)",
             &[CONTACT, CELL_MEAN, PROJECTION],
-            Method::xpic(2),
+            Method::named("XPIC(2)"),
         ),
         drop(
             "cell-mean pressure",

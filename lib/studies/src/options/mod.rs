@@ -31,7 +31,7 @@ const CELLS: u32 = 6;
 /// Methods: the paper's two, APIC, each with every option; the implicit scheme beside them.
 fn methods() -> Vec<Method> {
     let mut list = Vec::new();
-    for plain in [Method::flip(), Method::xpic(5), Method::apic()] {
+    for plain in ["FLIP", "XPIC(5)", "APIC"].map(Method::named) {
         list.push(plain.clone());
         list.extend(OPTIONS.map(|(name, keys)| plain.with(name, keys)));
     }

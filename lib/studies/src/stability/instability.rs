@@ -69,11 +69,11 @@ pub fn trials() -> Vec<Trial> {
         then: 0.5,
         stop_after,
     };
-    let cavitating = Method::flip().setting("adhesive.cavitation_pressure=\"0.1 MPa\"");
+    let cavitating = Method::named("FLIP").setting("adhesive.cavitation_pressure=\"0.1 MPa\"");
     vec![
-        pressed(Method::flip(), 50),
-        pressed(Method::flip(), 150),
-        pressed(Method::xpic(5), 150),
+        pressed(Method::named("FLIP"), 50),
+        pressed(Method::named("FLIP"), 150),
+        pressed(Method::named("XPIC(5)"), 150),
         Trial {
             scene: "torn apart, 150 m/s",
             case: torn(150.0).deep(64),

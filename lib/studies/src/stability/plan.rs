@@ -54,21 +54,23 @@ fn of_line(line: &'static str) -> Option<Vec<Trial>> {
 /// The methods of a word, with the name of an option that they have.
 fn named(word: &str) -> Vec<(&'static str, Method)> {
     let plain = |labels: &[&str]| -> Vec<_> {
-        let methods = labels.iter().filter_map(|label| Method::named(label));
-        methods.map(|method| ("", method)).collect()
+        labels
+            .iter()
+            .map(|label| ("", Method::named(label)))
+            .collect()
     };
     match word {
         "usual" => plain(&USUAL),
         "updates" => plain(&UPDATES),
         "cell-mean" => {
-            let mean = Method::apic().setting("integrator.pressure=cell-mean");
+            let mean = Method::named("APIC").setting("integrator.pressure=cell-mean");
             [plain(&USUAL), vec![("", mean.called("APIC, cell mean"))]].concat()
         }
         "options" => {
             let explicit = |method: &Method| method.scheme == Scheme::Explicit;
             let of = |(name, keys): (&'static str, &[&str])| {
                 let with = |m: Method| keys.iter().fold(m, |m, key| m.setting(*key));
-                let methods = USUAL.iter().filter_map(|label| Method::named(label));
+                let methods = USUAL.map(Method::named).into_iter();
                 let methods = methods.filter(explicit).map(with);
                 methods.map(|method| (name, method)).collect::<Vec<_>>()
             };

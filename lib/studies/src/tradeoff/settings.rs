@@ -24,7 +24,7 @@ pub(super) fn all(double: &Path) -> Vec<Setting> {
         let (varied, words) = (parts.next()?, parts.next()?);
         let (name, keys) = (parts.next(), parts.next());
         let setting = |of: Values| {
-            let mut method = Method::named(of.word("method")?)?;
+            let mut method = Method::named(of.word("method")?);
             if let Some(name) = name {
                 method = method.with(&of.within(name), &[]);
             }

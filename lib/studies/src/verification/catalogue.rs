@@ -30,9 +30,9 @@ fn of_word(word: &str) -> Vec<Method> {
         Some((_, cfl)) => {
             vec![Method::implicit().setting(format!("integrator.cfl={cfl}"))]
         }
-        None if word == "paper" => vec![Method::flip(), Method::xpic(5)],
+        None if word == "paper" => vec![Method::named("FLIP"), Method::named("XPIC(5)")],
         None if word == "updates" => Method::updates(),
-        None => Method::named(word).into_iter().collect(),
+        None => vec![Method::named(word)],
     }
 }
 
