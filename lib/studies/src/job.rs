@@ -109,7 +109,8 @@ pub struct Outcome {
     pub(crate) method: Method,
     /// Measured errors, or why there are none.
     pub measured: Result<Vec<Measured>, String>,
-    pub(crate) run: Run,
+    /// The run.
+    pub run: Run,
     /// Steps; NaN if it did not end.
     pub(crate) steps: f64,
     /// User and system time of the run, s; NaN if it did not end.

@@ -13,27 +13,38 @@ use crate::method::{Method, Scheme};
 /// The scenes of all lines.
 pub(super) fn all() -> Vec<(Scene, Vec<Method>)> {
     lines::read(include_str!("catalogue.txt"), |line| {
-        let (scene, methods) = line.split_once(" | ")?;
+        let (words, labels) = line.split_once(" | ")?;
         let entry = |values: Values| {
             let halves = ["0", "0.5"].contains(&values.word("off").unwrap_or("0"));
-            let mut methods: Vec<Method> = methods.split(' ').flat_map(of_word).collect();
+            let mut methods: Vec<Method> = labels.split(' ').flat_map(methods).collect();
             methods.retain(|m| halves || m.scheme == Scheme::Explicit);
             Some((scene_of(&values)?, methods))
         };
-        Values::all(scene).into_iter().map(entry).collect()
+        Values::all(words).into_iter().map(entry).collect()
     })
 }
 
-/// The methods that a word stands for.
-fn of_word(word: &str) -> Vec<Method> {
-    match word.split_once('@') {
-        Some((_, cfl)) => {
-            vec![Method::implicit().setting(format!("integrator.cfl={cfl}"))]
-        }
-        None if word == "paper" => vec![Method::named("FLIP"), Method::named("XPIC(5)")],
-        None if word == "updates" => Method::updates(),
-        None => vec![Method::named(word)],
-    }
+/// The scenes of the words of a line.
+pub fn scenes(words: &'static str) -> Option<Vec<Scene>> {
+    (Values::all(words).iter()).map(scene_of).collect()
+}
+
+/// The methods that a word stands for; behind each + is a key that they set.
+pub fn methods(word: &str) -> Vec<Method> {
+    let mut parts = word.split('+');
+    let label = parts.next().unwrap_or_default();
+    let (label, cfl) = label
+        .split_once('@')
+        .map_or((label, None), |(label, cfl)| (label, Some(cfl)));
+    let plain = match label {
+        "paper" => ["FLIP", "XPIC(5)"].map(Method::named).into(),
+        "updates" => Method::updates(),
+        label => vec![Method::named(label)],
+    };
+    let cfl = cfl.map(|cfl| format!("integrator.cfl={cfl}"));
+    let keys: Vec<String> = cfl.into_iter().chain(parts.map(String::from)).collect();
+    let set = |method| keys.iter().fold(method, |m: Method, key| m.setting(key));
+    plain.into_iter().map(set).collect()
 }
 
 fn scene_of(of: &Values) -> Option<Scene> {
@@ -44,7 +55,9 @@ fn scene_of(of: &Values) -> Option<Scene> {
         all.into_iter()
             .find(|s| of.word("section") == Some(s.name()))
     };
-    Some(match of.name {
+    let or = |key, usual| of.number(key).unwrap_or(usual);
+    let (depth, slowing) = (or("depth", 1.5), or("slowing", 0.0));
+    let mut scene = match of.name {
         "incline" => incline::scene(n()?, off()?, of.number("until")?),
         "channel" => channel::scene(n()?, off()?, of.number("slip"), 3e-6),
         "table" => laws::scene(laws::TABLE, n()?, 0.0, 0.4e-6),
@@ -74,8 +87,8 @@ fn scene_of(of: &Values) -> Option<Scene> {
         },
         "air" => air::scene(n()?, of.number("leak")),
         "wicking" => match section() {
-            Some(section) => wicking::tube_scene(section, n()?, 1.5, degrees()?, 0.0),
-            None => wicking::slit_scene(n()?, [off()?, of.number("along")?], degrees()?, 0.0),
+            Some(section) => wicking::tube_scene(section, n()?, depth, degrees()?, slowing),
+            None => wicking::slit_scene(n()?, [off()?, of.number("along")?], degrees()?, slowing),
         },
         "jurin" => jurin::scene(n()?, off()?, degrees()?),
         "spheres" => {
@@ -91,18 +104,20 @@ fn scene_of(of: &Values) -> Option<Scene> {
                 "hold" => stefan::Load::Hold,
                 _ => stefan::Load::Programme,
             };
-            stefan::scene(6, load, of.number("time")?)
+            stefan::scene(n().unwrap_or(6), load, of.number("time")?)
         }
         "tait" => tait::scene(),
         "acoustic" => acoustic::scene(eta()?),
         "column" => column::scene(off()?, 6e-6),
         "vortex" => taylor_green::scene(n()?, eta()?),
-        "drop" => drop::scene(0.5e-6),
-        "galilean" => galilean::scene(of.word("law")?, 0.5),
+        "drop" => drop::scene(or("until", 0.5e-6)),
+        "galilean" => galilean::scene(of.word("law")?, or("off", 0.5)),
         "sealed" => sealed::scene(of.word("voxels")?.parse().ok()?, off()?),
         "clamp" => clamp::scene(3.0),
         _ => return None,
-    })
+    };
+    scene.case.stop = of.number("stop").or(scene.case.stop);
+    Some(scene)
 }
 
 #[cfg(test)]
