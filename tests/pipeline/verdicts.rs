@@ -3,41 +3,7 @@
 use crate::workbench::Workbench;
 
 /// A drop between two plates, the upper of which the clamp drives.
-pub const SMALL: &str = r#"
-[grid]
-cell = "2 um"
-dimensions = 2
-domain = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1.3 Pa s"
-[contact]
-law = "stick"
-[gravity]
-acceleration = ["0 m/s2", "0 m/s2", "0 m/s2"]
-[clamp]
-closing_speed = "1 m/s"
-max_pressure = "2.5 MPa"
-travel = "4 um"
-[integrator]
-scheme = "implicit"
-cfl = 0.5
-[output]
-history_every = "0.02 us"
-[[body]]
-material = "rigid"
-name = "bottom"
-box = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "6 um", "2 um"] }
-[[body]]
-material = "rigid"
-name = "top"
-velocity = "clamp"
-box = { min = ["0 um", "16 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
-[[body]]
-material = "adhesive"
-box = { min = ["0 um", "6 um", "0 um"], max = ["12 um", "14 um", "2 um"] }
-"#;
+pub const SMALL: &str = include_str!("../plates.toml");
 
 pub const NO_LIMIT: (&str, &str) = ("max_pressure = \"2.5 MPa\"\n", "");
 pub const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"explicit\"");
