@@ -10,7 +10,6 @@
 
 pub mod bench;
 pub mod case_text;
-mod closed_forms;
 pub mod crash;
 pub mod experiments;
 pub mod job;

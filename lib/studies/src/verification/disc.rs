@@ -1,10 +1,11 @@
 //! Squeeze film between closing discs: a quarter disc of liquid between plates that are wider.
 
+use std::f64::consts::PI;
+
 use super::Scene;
 use super::lumen::{Section, quarter};
 use super::squeeze::{forces, plates};
 use crate::case_text::{Body, CaseText, PF};
-use crate::closed_forms::squeeze_discs;
 
 const CELL: f64 = 2.9e-6;
 const SPEED: f64 = 0.1;
@@ -35,13 +36,14 @@ pub fn scene(aspect: u32, n: u32, offset: f64) -> Scene {
         ..CaseText::new(CELL, 3, [right, top, right])
     };
     // The radius of a circle of the area of the voxels.
-    let radius = d * (Section::Round(2).area(across) / std::f64::consts::PI).sqrt();
+    let radius = d * (Section::Round(2).area(across) / PI).sqrt();
     let name = format!("disc{aspect}-n{n}-off{offset}");
     Scene::new(name, "lubrication theory", case, move |run| {
         // What is pressed out widens the disc.
         forces(run, right * right, SPEED, |closed| {
             let now = gap - closed;
-            0.25 * squeeze_discs(radius * (gap / now).sqrt(), now, SPEED, PF[2])
+            let radius = radius * (gap / now).sqrt();
+            0.25 * (1.5 * PI * PF[2] * SPEED * radius.powi(4) / now.powi(3))
         })
     })
 }

@@ -4,7 +4,6 @@
 use super::{LUMEN, Measured, Scene};
 use crate::Result;
 use crate::case_text::{Body, CaseText, PF};
-use crate::closed_forms::film;
 use crate::numbers::rms;
 use crate::outputs::Run;
 
@@ -49,7 +48,7 @@ pub fn scene(n: u32, offset: f64, until: f64) -> Scene {
 
 /// Velocity of paper Eq. 5 at a distance from the floor, m/s.
 pub(crate) fn velocity(height: f64) -> f64 {
-    film(height, LUMEN, G[0], PF[0], PF[2])
+    PF[0] * G[0] / PF[2] * height * (LUMEN - 0.5 * height)
 }
 
 /// The largest of them, at the surface, m/s.

@@ -3,7 +3,6 @@
 use super::{Measured, Scene};
 use crate::Result;
 use crate::case_text::{Body, CaseText, PF};
-use crate::closed_forms::squeeze_plates;
 use crate::outputs::Run;
 
 const CELL: f64 = 2.9e-6;
@@ -40,7 +39,8 @@ pub fn scene(n: u32, offset: f64) -> Scene {
         // What is pressed out lengthens the film.
         forces(run, right, SPEED, |closed| {
             let now = gap - closed;
-            0.5 * squeeze_plates(half_length * gap / now, now, SPEED, PF[2])
+            let half_length = half_length * gap / now;
+            0.5 * (8.0 * PF[2] * SPEED * (half_length / now).powi(3))
         })
     })
 }

@@ -2,7 +2,6 @@
 
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, PF};
-use crate::closed_forms::tait;
 use crate::numbers::{mean, rms};
 
 const CELL: f64 = 2.9e-6;
@@ -31,7 +30,7 @@ pub fn scene() -> Scene {
         let [time, pressure] = run.columns(["time_s", "pressure_top_Pa"])?;
         // Each row of the last tenth against the law at its own time: sound still rings.
         let from = time.partition_point(|&t| t <= 0.9 * until);
-        let exact = |t: &f64| tait(1.0 - SPEED * t / height, PF[1]);
+        let exact = |t: &f64| tait(1.0 - SPEED * t / height);
         let exact = mean(time[from..].iter().map(exact));
         let found = mean(pressure[from..].iter().copied());
         // The law itself, without the walls: each point's pressure against that of its own volume.
@@ -39,10 +38,15 @@ pub fn scene() -> Scene {
         let whole = width * height * CELL / points.len() as f64;
         let off = points
             .iter()
-            .map(|p| p.pressure / tait(p.volume / whole, PF[1]) - 1.0);
+            .map(|p| p.pressure / tait(p.volume / whole) - 1.0);
         Ok(vec![
             Measured::relative("piston pressure", found, exact),
             Measured::absolute("rms pressure of points of their volume", rms(off)),
         ])
     })
+}
+
+/// Pressure at a relative volume, Pa.
+fn tait(j: f64) -> f64 {
+    0.0894 * PF[1] * (((1.0 - j) / 0.0894).exp() - 1.0)
 }
