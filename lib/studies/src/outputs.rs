@@ -1,5 +1,6 @@
 //! The built tools, and reading what the real `mpm-run` wrote.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -159,14 +160,14 @@ impl Run {
         let state = self.folder.join("final.mpts");
         let table = printed(tool("wp-metrics").arg("--quiet").arg(state))?;
         let mut rows = csv::Reader::from_reader(table.as_bytes());
-        let header = rows.headers()?.clone();
-        let column = |name: &str| header.iter().position(|n| n == name);
-        let (side, wp) = (column("side").unwrap_or(0), column("wp_um").unwrap_or(0));
-        let rows: Vec<csv::StringRecord> = rows.records().filter_map(Result::ok).collect();
-        let of = |name: &str| {
-            let row = rows.iter().find(|row| row.get(side) == Some(name));
-            let number = row.and_then(|row| row.get(wp)?.parse().ok());
-            number.ok_or_else(|| format!("wp-metrics printed no {name}"))
+        let rows = rows.deserialize().filter_map(Result::ok);
+        let rows: Vec<HashMap<String, String>> = rows.collect();
+        let of = |side: &str| {
+            let row = rows
+                .iter()
+                .find(|row| row.get("side").is_some_and(|of| of == side));
+            let number = row.and_then(|row| row.get("wp_um")?.parse().ok());
+            number.ok_or_else(|| format!("wp-metrics printed no {side}"))
         };
         Ok([of("bottom")?, of("top")?, of("total")?])
     }

@@ -1,29 +1,9 @@
 //! `stability.csv` and `stability.md`.
 
-use super::trial::{Row, Verdict};
+use super::trial::{ENDS, Row};
 use crate::Result;
 use crate::method::Scheme;
 use crate::study::{Study, distinct, filled, table};
-
-impl Verdict {
-    fn word(&self) -> &'static str {
-        match self {
-            Verdict::Stable => "stable",
-            Verdict::Noisy => "noisy",
-            Verdict::Refused(_) => "refused",
-            Verdict::Stopped(_) => "stopped",
-            Verdict::Broken(_) => "BROKEN",
-        }
-    }
-
-    /// What was said.
-    fn sentence(&self) -> &str {
-        match self {
-            Verdict::Stable | Verdict::Noisy => "",
-            Verdict::Refused(said) | Verdict::Stopped(said) | Verdict::Broken(said) => said,
-        }
-    }
-}
 
 /// A number, or nothing where there is none.
 fn number(x: f64) -> String {
@@ -41,7 +21,7 @@ travel_over_full_speed,J_min,J_max,lost_points,balance_error,sentence,warning";
 pub(super) fn write(study: &Study, rows: &[Row], unstable: &str) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let trial = &row.trial;
-        let (cfl, verdict) = (trial.cfl.to_string(), row.verdict.word());
+        let (cfl, verdict) = (trial.cfl.to_string(), row.verdict);
         let head = [
             trial.varied,
             &trial.value,
@@ -51,7 +31,7 @@ pub(super) fn write(study: &Study, rows: &[Row], unstable: &str) -> Result<()> {
         ];
         let numbers = [row.part, row.steps, row.cpu_s, row.energy, row.travel];
         let ends = [row.j[0], row.j[1], row.lost, row.balance];
-        let said = [row.verdict.sentence(), &row.warning].map(String::from);
+        let said = [row.sentence.clone(), row.warning.clone()];
         let numbers = numbers.into_iter().chain(ends).map(number);
         (head.map(String::from).into_iter().chain(numbers))
             .chain(said)
@@ -66,12 +46,13 @@ pub(super) fn write(study: &Study, rows: &[Row], unstable: &str) -> Result<()> {
 pub(super) fn said(row: &Row) -> String {
     let trial = &row.trial;
     format!(
-        "{:<22} {:<30} {:<9} {:>5} {:?} energy {:.2e} J {:.3} to {:.3} balance {:+.1e} {:.1} s",
+        "{:<22} {:<30} {:<9} {:>5} {} {} energy {:.2e} J {:.3} to {:.3} balance {:+.1e} {:.1} s",
         trial.varied,
         trial.value,
         trial.method.label,
         trial.cfl,
         row.verdict,
+        row.sentence,
         row.energy,
         row.j[0],
         row.j[1],
@@ -94,11 +75,10 @@ fn page(rows: &[Row], head: &str, unstable: &str) -> String {
 
 /// How many runs ended how, for each quantity varied.
 fn summary(rows: &[Row]) -> String {
-    let words = ["stable", "noisy", "refused", "stopped", "BROKEN"];
     let line = |name: &str, of: &dyn Fn(&Row) -> bool| {
         let own: Vec<&Row> = rows.iter().filter(|row| of(row)).collect();
-        let count = |word| own.iter().filter(|row| row.verdict.word() == word).count();
-        let counts = words.map(|word| count(word).to_string());
+        let count = |word| own.iter().filter(|row| row.verdict == word).count();
+        let counts = ENDS.map(|word| count(word).to_string());
         format!("| {name} | {} |", counts.join(" | "))
     };
     let varied = distinct(rows.iter().map(|row| row.trial.varied)).into_iter();
@@ -107,23 +87,23 @@ fn summary(rows: &[Row]) -> String {
         let name = format!("**all {}**", scheme.name());
         line(&name, &|row| row.trial.method.scheme == scheme)
     });
-    let heads = format!("| varied | {} |", words.join(" | "));
+    let heads = format!("| varied | {} |", ENDS.join(" | "));
     table(&heads, varied.chain(schemes))
 }
 
 /// A row for each value at which methods ended in the same word, but for the stable ones.
 fn not_stable(rows: &[Row]) -> String {
-    let unstable = rows.iter().filter(|row| row.verdict != Verdict::Stable);
+    let unstable = rows.iter().filter(|row| row.verdict != ENDS[0]);
     let rows: Vec<&Row> = unstable.collect();
     let kind = |row: &Row| {
         let (varied, value) = (row.trial.varied, row.trial.value.clone());
-        (varied, value, row.verdict.word())
+        (varied, value, row.verdict)
     };
     let line = |of: (&str, String, &str)| {
         let same: Vec<&&Row> = rows.iter().filter(|row| kind(row) == of).collect();
         let methods = same.iter().map(|row| row.trial.method.label.as_str());
         let methods = methods.collect::<Vec<_>>().join(", ");
-        let ((varied, value, ended), sentence) = (of, same[0].verdict.sentence());
+        let ((varied, value, ended), sentence) = (of, &same[0].sentence);
         format!("| {varied} | {value} | {ended} | {methods} | {sentence} |")
     };
     let kinds = distinct(rows.iter().map(|row| kind(row)));
