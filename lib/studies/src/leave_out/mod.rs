@@ -13,8 +13,8 @@ use stages::Table;
 /// Measures both schemes and writes `leave-out.md` and `leave-out.csv`; says whether the goal is met.
 pub fn run(study: &Study) -> Result<bool> {
     let folder = study.folder();
-    let explicit = Table::measure(Scheme::Explicit, scenes::explicit(), &folder)?;
-    let implicit = Table::measure(Scheme::Implicit, scenes::implicit(), &folder)?;
+    let explicit = Table::measure(Scheme::Explicit, &folder)?;
+    let implicit = Table::measure(Scheme::Implicit, &folder)?;
     let values = [
         ("origin", study.origin()),
         ("explicit", &explicit.text()),

@@ -3,9 +3,8 @@
 use super::lumen::Section;
 use super::piston::Drive;
 use super::{
-    Scene, acoustic, air, channel, clamp, column, couette, cure, disc, drop, duct, galilean, grain,
-    incline, jurin, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green,
-    washburn, water, wicking,
+    Scene, acoustic, air, channel, clamp, cure, duct, galilean, grain, incline, jurin, laws,
+    piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn, water, wicking,
 };
 use crate::lines::{self, Values};
 use crate::method::{Method, Scheme};
@@ -67,7 +66,7 @@ fn scene_of(of: &Values) -> Option<Scene> {
                 .find(|l| of.word("name") == Some(l.name));
             laws::scene(law?, n()?, off()?, 0.4e-6)
         }
-        "couette" => couette::scene(n()?, off()?, 0.1, 3e-6),
+        "couette" => channel::couette_scene(n()?, off()?, 0.1, 3e-6),
         "duct" => duct::scene(section()?, n()?, 2e-6),
         "slit" => slit::scene(n()?, [off()?, of.number("up")?]),
         "piston" => piston::scene(section()?, n()?, Drive::Speed(0.5)),
@@ -98,7 +97,7 @@ fn scene_of(of: &Values) -> Option<Scene> {
         }
         "grain" => grain::scene(n()?),
         "squeeze" => squeeze::scene(n()?, off()?),
-        "disc" => disc::scene(8, n()?, off()?),
+        "disc" => squeeze::disc_scene(8, n()?, off()?),
         "stefan" => {
             let load = match of.word("load")? {
                 "hold" => stefan::Load::Hold,
@@ -108,9 +107,9 @@ fn scene_of(of: &Values) -> Option<Scene> {
         }
         "tait" => tait::scene(),
         "acoustic" => acoustic::scene(eta()?),
-        "column" => column::scene(off()?, 6e-6),
+        "column" => tait::resting_scene(off()?, 6e-6),
         "vortex" => taylor_green::scene(n()?, eta()?),
-        "drop" => drop::scene(or("until", 0.5e-6)),
+        "drop" => galilean::drop_scene(or("until", 0.5e-6)),
         "galilean" => galilean::scene(of.word("law")?, or("off", 0.5)),
         "sealed" => sealed::scene(of.word("voxels")?.parse().ok()?, off()?),
         "clamp" => clamp::scene(3.0),
