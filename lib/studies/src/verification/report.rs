@@ -113,7 +113,7 @@ fn goals(outcomes: &[Outcome]) -> String {
         ))
     };
     let heads = "| case | method | quantity | goal | worst | |";
-    table(heads, goals::goals().filter_map(line))
+    table(heads, goals::goals().into_iter().filter_map(line))
 }
 
 fn worst_of(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
