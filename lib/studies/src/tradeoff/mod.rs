@@ -58,15 +58,17 @@ impl Flow {
         Flow::BondWp,
     ];
 
-    /// Name in tables.
+    /// Name in tables, and the beginning of the name of the quantity whose error counts.
+    const NAMES: [(&str, &str); 5] = [
+        ("piston into slit", "piston force"),
+        ("channel", "mean velocity"),
+        ("incline", "rms profile"),
+        ("bond line, pressure", ""),
+        ("bond line, WP", ""),
+    ];
+
     fn name(self) -> &'static str {
-        match self {
-            Flow::Slit => "piston into slit",
-            Flow::Channel => "channel",
-            Flow::Incline => "incline",
-            Flow::BondPressure => "bond line, pressure",
-            Flow::BondWp => "bond line, WP",
-        }
+        Self::NAMES[self as usize].0
     }
 
     /// Scenes of this flow with `n` cells across the lumen for a scheme; none where it is not one of
@@ -94,16 +96,6 @@ impl Flow {
                 .collect(),
             Flow::Incline => vec![incline::scene(n, 0.0, until(5e-6, 100.0))],
             Flow::BondPressure | Flow::BondWp => Vec::new(),
-        }
-    }
-
-    /// Beginning of the name of the quantity whose error counts.
-    fn quantity(self) -> &'static str {
-        match self {
-            Flow::Slit => "piston force",
-            Flow::Channel => "mean velocity",
-            Flow::Incline => "rms profile",
-            Flow::BondPressure | Flow::BondWp => "",
         }
     }
 }
@@ -156,7 +148,7 @@ fn row(flow: Flow, setting: &Setting, outcomes: &[Outcome]) -> Row {
         .iter()
         .filter_map(|o| o.measured.as_ref().ok())
         .flatten();
-    let of_flow = all.filter(|m| m.what.starts_with(flow.quantity()));
+    let of_flow = all.filter(|m| m.what.starts_with(Flow::NAMES[flow as usize].1));
     let error = rms(of_flow.map(|m| m.error));
     let cpu: f64 = outcomes.iter().map(|o| o.cpu_s).sum();
     Row {

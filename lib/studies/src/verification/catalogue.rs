@@ -3,8 +3,8 @@
 use super::lumen::Section;
 use super::piston::Drive;
 use super::{
-    Scene, acoustic, air, channel, clamp, cure, duct, galilean, grain, incline, jurin, laws,
-    piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn, water, wicking,
+    Scene, acoustic, air, channel, clamp, cure, duct, galilean, grain, incline, laws, piston,
+    sealed, slit, spheres, squeeze, stefan, tait, taylor_green, water, wicking,
 };
 use crate::lines::{self, Values};
 use crate::method::{Method, Scheme};
@@ -70,7 +70,7 @@ fn scene_of(of: &Values) -> Option<Scene> {
         "duct" => duct::scene(section()?, n()?, 2e-6),
         "slit" => slit::scene(n()?, [off()?, of.number("up")?]),
         "piston" => piston::scene(section()?, n()?, Drive::Speed(0.5)),
-        "washburn" => washburn::scene(n()?, off()?),
+        "washburn" => slit::filled_scene(n()?, off()?),
         "washburn3d" => piston::scene(section()?, n()?, Drive::Pressure(1e6)),
         "cure" => {
             let laws = [cure::GEL, cure::TABLE];
@@ -89,7 +89,7 @@ fn scene_of(of: &Values) -> Option<Scene> {
             Some(section) => wicking::tube_scene(section, n()?, depth, degrees()?, slowing),
             None => wicking::slit_scene(n()?, [off()?, of.number("along")?], degrees()?, slowing),
         },
-        "jurin" => jurin::scene(n()?, off()?, degrees()?),
+        "jurin" => wicking::jurin_scene(n()?, off()?, degrees()?),
         "spheres" => {
             let fraction = of.number("fraction")?;
             let row = spheres::DRAG.into_iter().find(|row| row.0 == fraction);
