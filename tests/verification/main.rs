@@ -5,7 +5,7 @@
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
 use studies::case_text::{PF, Viscosity};
-use studies::job::{Job, Outcome, run_one};
+use studies::job::{Outcome, run_one};
 use studies::load_control::{self, report::sound, scenes::shapes};
 use studies::method::Method;
 use studies::verification::lumen::Section;
@@ -101,8 +101,7 @@ fn make(mistake: &str, scene: &mut Scene) {
 /// What a run of a scene came to, which `with` may look at.
 fn run<T>(scene: &Scene, method: &Method, with: impl Fn(&Outcome) -> T) -> T {
     let folder = tempfile::tempdir().unwrap();
-    let method = method.clone();
-    with(&run_one(&Job { scene, method }, folder.path()))
+    with(&run_one(&(scene, method.clone()), folder.path()))
 }
 
 /// Errors of the quantities whose names begin with `what`.

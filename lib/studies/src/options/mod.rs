@@ -59,7 +59,7 @@ pub fn run(study: &Study) -> Result<bool> {
         let short = scene.name.starts_with("squeeze") || scene.name.starts_with("acoustic");
         let mut methods = methods();
         methods.retain(|method| method.scheme == Scheme::Explicit || !short);
-        jobs.extend(methods.into_iter().map(|method| Job { scene, method }));
+        jobs.extend(methods.into_iter().map(|method| (scene, method)));
     }
     let outcomes = run_all(&jobs, &study.folder());
     let columns = "case,method,quantity,error,steps,cpu_s,said";

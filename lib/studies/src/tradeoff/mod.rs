@@ -125,11 +125,7 @@ fn boxes(settings: &[Setting], folder: &Path) -> (Vec<Row>, Vec<Outcome>) {
     }
     let mut jobs: Vec<Job> = Vec::new();
     for (_, setting, scenes) in &parts {
-        let method = &setting.method;
-        jobs.extend(scenes.iter().map(|scene| Job {
-            scene,
-            method: method.clone(),
-        }));
+        jobs.extend(scenes.iter().map(|scene| (scene, setting.method.clone())));
     }
     let outcomes = run_all(&jobs, folder);
     let mut rest = &outcomes[..];

@@ -41,8 +41,7 @@ pub fn run(study: &Study) -> Result<bool> {
     entries.retain(|(scene, _)| study.wants(&scene.name));
     let mut jobs: Vec<Job> = Vec::new();
     for (scene, methods) in &entries {
-        let methods = methods.iter().cloned();
-        jobs.extend(methods.map(|method| Job { scene, method }));
+        jobs.extend(methods.iter().map(|method| (scene, method.clone())));
     }
     let outcomes = run_all(&jobs, &study.folder());
     report::write(study, &outcomes)?;
