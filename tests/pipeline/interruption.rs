@@ -82,30 +82,6 @@ fn a_run_that_was_begun_to_ignore_a_signal_goes_on() {
     assert_eq!(sent(child, "TERM", 1), Some(75));
 }
 
-/// Every snapshot of a run is whole.
-fn check_snapshots(bench: &Workbench, folder: &str) {
-    let states = format!("find {folder} -path '*snapshots*' -name '*.mpts'");
-    bench.done(&format!("{states} | xargs -rn 1 particles check"));
-}
-
-#[test]
-fn a_killed_run_leaves_nothing_half_written_and_runs_again() {
-    let bench = Workbench::with_bond();
-    bench.press("whole", &SLOW, "");
-    for rows in [2, 100, 300] {
-        let child = started(&bench, "exec", "killed", rows);
-        assert_eq!(sent(child, "KILL", 1), None);
-        assert!(!bench.path("killed/final.mpts").exists());
-        check_snapshots(&bench, "killed");
-    }
-    bench.press("killed", &SLOW, "--resume");
-    let [whole, killed] = ["whole", "killed"].map(|run| {
-        let history = bench.read(&format!("{run}/history.csv"));
-        (bench.sum(&format!("{run}/final.mpts")), history)
-    });
-    assert!(whole == killed);
-}
-
 /// A run that becomes unstable leaves its last checkpoint and results, and goes on from there at
 /// a smaller Courant number; a liquid that flies apart stops again with a sentence. `make stability` does it
 /// later in the press and by XPIC(5), too.
@@ -129,6 +105,5 @@ fn an_unstable_run_leaves_its_checkpoint_and_goes_on_at_a_smaller_step() {
         }
         let cfl = format!("cfl = {}", row.cfl[1]);
         assert!(bench.text("run/resolved.toml").contains(&cfl));
-        check_snapshots(&bench, "run");
     }
 }

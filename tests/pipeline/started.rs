@@ -64,35 +64,7 @@ fn kills_at_any_moment_and_another_make_change_nothing() {
 }
 
 /// A press that ends with more than its pressure: its clamp gives way more slowly than the ramp falls.
-const UNSOUND: &str = r#"
-[grid]
-cell = "2 voxels"
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "0.7 Pa s"
-[contact]
-law = "stick"
-[[clamp.stage]]
-kind = "approach"
-speed = "6 mm/s"
-pressure = "300 kPa"
-[[clamp.stage]]
-kind = "ramp"
-pressure = "1 MPa"
-time = "1 ms"
-[[clamp.stage]]
-kind = "ramp"
-pressure = "100 kPa"
-time = "0.01 ms"
-[air]
-pressure = "101325 Pa"
-[boundary]
-x = "periodic"
-z = "periodic"
-[integrator]
-scheme = "implicit"
-"#;
+const UNSOUND: &str = include_str!("../unsound.toml");
 
 /// make removed what the run had said that it keeps.
 #[test]

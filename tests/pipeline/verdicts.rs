@@ -1,54 +1,21 @@
-//! Exit status 0 is a claim: what goes wrong ends with 1, and a sentence says what to change.
+//! Exit status 0 is a claim: what goes wrong ends with 1, what cannot be right is refused, and a sentence says what to change; a
+//! pressure limit holds for as long as one likes, or the run says that it does not.
 
 use crate::workbench::Workbench;
 
 /// A drop between two plates, the upper of which the clamp drives.
-pub const SMALL: &str = r#"
-[grid]
-cell = "2 um"
-dimensions = 2
-domain = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1.3 Pa s"
-[contact]
-law = "stick"
-[gravity]
-acceleration = ["0 m/s2", "0 m/s2", "0 m/s2"]
-[clamp]
-closing_speed = "1 m/s"
-max_pressure = "2.5 MPa"
-travel = "4 um"
-[integrator]
-scheme = "implicit"
-cfl = 0.5
-[output]
-history_every = "0.02 us"
-[[body]]
-material = "rigid"
-name = "bottom"
-box = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "6 um", "2 um"] }
-[[body]]
-material = "rigid"
-name = "top"
-velocity = "clamp"
-box = { min = ["0 um", "16 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
-[[body]]
-material = "adhesive"
-box = { min = ["0 um", "6 um", "0 um"], max = ["12 um", "14 um", "2 um"] }
-"#;
+pub const SMALL: &str = include_str!("../plates.toml");
 
-pub const NO_LIMIT: (&str, &str) = ("max_pressure = \"2.5 MPa\"\n", "");
-pub const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"explicit\"");
+const NO_LIMIT: (&str, &str) = ("max_pressure = \"2.5 MPa\"\n", "");
+const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"explicit\"");
 /// Liquid that fills all between the plates.
-pub const SEALED: (&str, &str) = ("max = [\"12 um\", \"14 um\"", "max = [\"24 um\", \"16 um\"");
+const SEALED: (&str, &str) = ("max = [\"12 um\", \"14 um\"", "max = [\"24 um\", \"16 um\"");
 
 const RUN: &str = "mpm-run -q case.toml -o run --overwrite";
 const AGAIN: &str = "mpm-run case.toml -o run --resume";
 
 /// [`SMALL`] with texts replaced.
-pub fn changed(changes: &[(&str, &str)]) -> String {
+fn changed(changes: &[(&str, &str)]) -> String {
     changes.iter().fold(SMALL.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
         text.replace(from, to)
@@ -141,4 +108,66 @@ fn a_clamp_that_meets_its_limit_in_its_last_step_closes() {
         assert!((way / 1e-7 - 1.0).abs() < 1e-6, "{viscosity}: {way} m");
         assert!(pressure < 0.3e6 * 1.005, "{viscosity}: {pressure} Pa");
     }
+}
+
+/// A chamber full of liquid that has no way out, pressed for a time.
+fn chamber(time_limit: &str, changes: &[(&str, &str)]) -> String {
+    let time = format!("travel = \"4 um\"\ntime_limit = \"{time_limit}\"");
+    changed(&[&[SEALED, ("travel = \"4 um\"", &time)], changes].concat())
+}
+
+/// Before, the clamp went on at a millionth of its speed: 13 and 78 MPa within a second, "sound".
+#[test]
+fn sealed_liquid_is_held_at_the_limit_for_a_second() {
+    let bench = Workbench::new();
+    for (modulus, most) in [("0.1 GPa", 0.02), ("1 GPa", 1e-3)] {
+        bench.write("case.toml", chamber("1 s", &[("1 GPa", modulus)]));
+        bench.done(RUN);
+        let pressures = bench.table("run/history.csv").column("pressure_top_Pa");
+        let over = pressures.into_iter().fold(0.0, f64::max) / 2.5e6 - 1.0;
+        println!("sealed at {modulus}: {over:+.1e} of the limit at most");
+        assert!(over < most, "{modulus}: {over}");
+    }
+}
+
+/// A PID slows the clamp down step by step, too late for sealed liquid, and does not open it: 127, 13 and
+/// 3.4 MPa were "sound".
+#[test]
+fn sealed_liquid_above_the_limit_by_a_pid_is_no_sound_run() {
+    let bench = Workbench::new();
+    let limit = "max_pressure = \"2.5 MPa\"";
+    let pid = format!("{limit}\npid = {{ kp = 0.0, ki = 0.02, kd = 0.0 }}");
+    for case in [
+        chamber("1 ms", &[(limit, &pid), ("cfl = 0.5", "cfl = 0.02")]),
+        chamber("1 ms", &[(limit, &pid), ("cfl = 0.5", "cfl = 0.002")]),
+        chamber("0.5 us", &[EXPLICIT]),
+    ] {
+        bench.write("case.toml", case);
+        bench.ends(1, RUN, "above its max_pressure");
+    }
+}
+
+const ENDLESS: (&str, &str) = ("\"1.3 Pa s\"", "\"1e9 Pa s\"");
+
+/// Before, the plan was printed with NaN in it, and every point of a plan was made only to be
+/// counted.
+#[test]
+fn a_plan_says_what_would_be_refused_and_needs_no_memory() {
+    let bench = Workbench::new();
+    bench.write("case.toml", changed(&[("cfl = 0.5", "cfl = nan")]));
+    bench.ends(2, "mpm-run case.toml --explain", "cfl");
+    bench.write("case.toml", changed(&[ENDLESS, EXPLICIT]));
+    let plan = bench.done("mpm-run case.toml --explain");
+    assert!(
+        plan.contains("refused            unless --yes-really"),
+        "{plan}"
+    );
+    let run = "mpm-run -q case.toml -o run";
+    bench.ends(2, run, "--yes-really runs it all the same");
+    bench.write("case.toml", changed(&[("velocity = \"clamp\"\n", "")]));
+    bench.ends(2, run, "[clamp] has nothing to move");
+    assert!(!bench.path("run").exists());
+    bench.write("case.toml", widened("0.2 m"));
+    let plan = bench.done("ulimit -v 2000000; mpm-run case.toml --explain --threads 1");
+    assert!(plan.contains("1598800000 material points"), "{plan}");
 }

@@ -19,21 +19,15 @@ pub enum Status {
     Resumable = 75,
 }
 
-/// Why a tool ends without success: one sentence and an exit status.
+/// Why a tool ends without success: an exit status and one sentence; none where the reader of our standard output
+/// went away, which is no error: the tool ends quietly.
 #[derive(Debug)]
-pub struct Failure(Reason);
-
-#[derive(Debug)]
-enum Reason {
-    Said(Status, String),
-    /// The reader of our standard output went away: not an error, the tool ends quietly.
-    ClosedPipe,
-}
+pub struct Failure(Option<(Status, String)>);
 
 impl Failure {
     /// A failure with `status`; `message` is one sentence without the tool's name.
     pub fn new(status: Status, message: impl fmt::Display) -> Self {
-        Self(Reason::Said(status, message.to_string()))
+        Self(Some((status, message.to_string())))
     }
 
     /// The run failed (exit 1).
@@ -53,28 +47,25 @@ impl Failure {
 
     /// Of input that other arguments would help (exit 2), or that is itself at fault (exit 3).
     pub fn of_input(is_usage: bool, message: impl fmt::Display) -> Self {
-        let status = if is_usage {
-            Status::Usage
-        } else {
-            Status::Data
-        };
-        Self::new(status, message)
+        match is_usage {
+            true => Self::usage(message),
+            false => Self::data(message),
+        }
     }
 
     /// A failed write to `target`: a closed pipe is a quiet end, all else exit 1.
     pub fn write(target: impl fmt::Display, error: &io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe {
-            Self(Reason::ClosedPipe)
-        } else {
-            Self::failed(format!("cannot write {target}: {error}"))
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self(None),
+            _ => Self::failed(format!("cannot write {target}: {error}")),
         }
     }
 
     /// Prints the sentence to standard error and gives the exit code.
     pub(crate) fn report(self, tool: &str) -> ExitCode {
         match self.0 {
-            Reason::ClosedPipe => ExitCode::SUCCESS,
-            Reason::Said(status, sentence) => {
+            None => ExitCode::SUCCESS,
+            Some((status, sentence)) => {
                 message::say(format_args!("{tool}: {sentence}"));
                 ExitCode::from(status as u8)
             }

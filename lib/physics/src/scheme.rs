@@ -128,44 +128,27 @@ impl Saving<'_> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Saved(pub Vec<(String, Array)>);
 
+/// Arrays by name and type; an error where one is absent or of another type.
+macro_rules! arrays {
+    ($(#[$doc:meta] $name:ident $kind:ident $type:ident $otherwise:literal,)*) => {
+        $(#[$doc]
+        pub fn $name(&self, name: &str) -> Result<&[$type], String> {
+            match self.find(name)? {
+                Array::$kind(array) => Ok(array),
+                _ => Err(format!("array '{name}' of the checkpoint {}", $otherwise)),
+            }
+        })*
+    };
+}
+
 impl Saved {
-    /// The array `name` in double precision.
-    ///
-    /// # Errors
-    /// When it is absent or of another type.
-    pub fn f64s(&self, name: &str) -> Result<&[f64], String> {
-        match self.find(name)? {
-            Array::F64(array) => Ok(array),
-            _ => Err(format!(
-                "array '{name}' of the checkpoint is not in double precision"
-            )),
-        }
-    }
-
-    /// The same in single precision.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn f32s(&self, name: &str) -> Result<&[f32], String> {
-        match self.find(name)? {
-            Array::F32(array) => Ok(array),
-            _ => Err(format!(
-                "array '{name}' of the checkpoint is not in single precision"
-            )),
-        }
-    }
-
-    /// The same of indices.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn u32s(&self, name: &str) -> Result<&[u32], String> {
-        match self.find(name)? {
-            Array::U32(array) => Ok(array),
-            _ => Err(format!(
-                "array '{name}' of the checkpoint does not hold indices"
-            )),
-        }
+    arrays! {
+        /// The array `name` in double precision.
+        f64s F64 f64 "is not in double precision",
+        /// The same in single precision.
+        f32s F32 f32 "is not in single precision",
+        /// The same of indices.
+        u32s U32 u32 "does not hold indices",
     }
 
     fn find(&self, name: &str) -> Result<&Array, String> {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::packed::{Absolute, Finish, LANES, PackedMatrix};
+use crate::packed::{Absolute, Finish, LANES, Lanes, PackedMatrix};
 use crate::vector::{CHUNK, Real, Work, for_each};
 use crate::velocity_block::VelocityBlock;
 
@@ -101,13 +101,7 @@ struct Residual<'a>(&'a [Work]);
 
 impl Finish for Residual<'_> {
     #[inline(always)]
-    fn finish(
-        &self,
-        block: usize,
-        now: &[Work; LANES],
-        product: [Work; LANES],
-        out: &mut [Work; LANES],
-    ) {
+    fn finish(&self, block: usize, now: &Lanes, product: Lanes, out: &mut Lanes) {
         let rhs = &self.0.as_chunks::<LANES>().0[block];
         *out = std::array::from_fn(|i| rhs[i] - now[i] - product[i]);
     }
@@ -122,13 +116,7 @@ struct Step<'a> {
 
 impl Finish for Step<'_> {
     #[inline(always)]
-    fn finish(
-        &self,
-        block: usize,
-        now: &[Work; LANES],
-        product: [Work; LANES],
-        old: &mut [Work; LANES],
-    ) {
+    fn finish(&self, block: usize, now: &Lanes, product: Lanes, old: &mut Lanes) {
         let rhs = &self.rhs.as_chunks::<LANES>().0[block];
         *old = std::array::from_fn(|i| {
             let residual = rhs[i] - now[i] - product[i];

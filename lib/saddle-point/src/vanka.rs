@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
 
-use crate::packed::LANES;
+use crate::packed::{LANES, Lanes};
 use crate::simd::{Kernel, dispatch};
 use crate::system::SaddleSystem;
 use crate::vector::{CHUNK, Real, Work, for_each};
@@ -16,9 +16,6 @@ const DAMPING: Work = 0.6;
 
 /// Entries of a symmetric matrix over the faces of a cell.
 const ENTRIES: usize = FACES * (FACES + 1) / 2;
-
-/// A value for each of a block's cells.
-type Lanes<T> = [T; LANES];
 
 /// One additive sweep over the cells, after Vanka (1986, J. Comput. Phys. 65, 138-158): for each
 /// the velocities of its faces and its pressure solve `[A, -g^T; -g, -c]` exactly for the

@@ -94,12 +94,7 @@ impl Measured {
 }
 
 /// One scene by one method.
-pub struct Job<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// The method.
-    pub method: Method,
-}
+pub type Job<'a> = (&'a Scene, Method);
 
 /// What a job gave.
 pub struct Outcome {
@@ -109,7 +104,8 @@ pub struct Outcome {
     pub(crate) method: Method,
     /// Measured errors, or why there are none.
     pub measured: Result<Vec<Measured>, String>,
-    pub(crate) run: Run,
+    /// The run.
+    pub run: Run,
     /// Steps; NaN if it did not end.
     pub(crate) steps: f64,
     /// User and system time of the run, s; NaN if it did not end.
@@ -124,8 +120,8 @@ impl Outcome {
 }
 
 /// Runs a job into `folder` from a case file in `cases`; nothing presses in that of the implicit scheme.
-fn run(job: &Job, cases: &Path, folder: &Path) -> Result<Vec<Measured>> {
-    let (scene, scheme) = (job.scene, job.method.scheme);
+fn run((scene, method): &Job, cases: &Path, folder: &Path) -> Result<Vec<Measured>> {
+    let scheme = method.scheme;
     let path = cases.join(format!("{}-{}.toml", scene.name, scheme.name()));
     let case = match scheme {
         Scheme::Explicit => scene.case.clone(),
@@ -139,20 +135,20 @@ fn run(job: &Job, cases: &Path, folder: &Path) -> Result<Vec<Measured>> {
         voxels.write(&bond)?;
         more.extend(["--particles", &name]);
     }
-    (scene.measure)(&job.method.run(&path, folder, &more)?)
+    (scene.measure)(&method.run(&path, folder, &more)?)
 }
 
 /// Runs one job in `folder`, which keeps its case in `cases`.
 pub fn run_one(job: &Job, folder: &Path) -> Outcome {
     let cases = folder.join("cases");
-    let folder = folder.join(format!("{}-{}", job.scene.name, job.method.file_label()));
+    let folder = folder.join(format!("{}-{}", job.0.name, job.1.file_label()));
     let measured = run(job, &cases, &folder);
     let run = Run { folder };
     let number = |key: &str| run.summary(key).unwrap_or(f64::NAN);
     Outcome {
-        scene: job.scene.name.clone(),
-        against: job.scene.against,
-        method: job.method.clone(),
+        scene: job.0.name.clone(),
+        against: job.0.against,
+        method: job.1.clone(),
         steps: number("steps"),
         cpu_s: number("cpu_s"),
         measured: measured.map_err(|e| e.to_string()),

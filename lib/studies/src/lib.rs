@@ -10,16 +10,17 @@
 
 pub mod bench;
 pub mod case_text;
-mod closed_forms;
 pub mod crash;
 pub mod experiments;
 pub mod job;
 pub mod leave_out;
+mod lines;
 pub mod load_control;
 pub mod method;
 mod numbers;
 pub mod options;
 pub mod outputs;
+mod press;
 pub mod stability;
 pub mod study;
 pub mod tradeoff;

@@ -50,55 +50,41 @@ impl Scheme {
 }
 
 impl Method {
-    fn plain(label: &str, scheme: Scheme) -> Self {
+    /// The method that tables call so: the implicit scheme, or the explicit one with an update, FLIP, PIC, APIC, or XPIC or FMPM
+    /// with its order in brackets.
+    pub fn named(label: &str) -> Self {
+        let scheme = match label {
+            "implicit" => Scheme::Implicit,
+            _ => Scheme::Explicit,
+        };
+        let mut set = Vec::new();
+        let (update, order) = label.split_once('(').unwrap_or((label, ""));
+        if !["FLIP", "implicit"].contains(&update) {
+            let update = update.to_lowercase();
+            set.push(format!("integrator.velocity_update=\"{update}\""));
+        }
+        if let Some(order) = order.strip_suffix(')') {
+            set.push(format!("integrator.order={order}"));
+        }
         Self {
             label: label.into(),
             scheme,
-            set: Vec::new(),
+            set,
             program: None,
         }
     }
 
-    fn updating(label: &str, update: &str) -> Self {
-        Self::plain(label, Scheme::Explicit)
-            .setting(format!("integrator.velocity_update=\"{update}\""))
-    }
-
-    /// The explicit scheme with FLIP.
-    pub fn flip() -> Self {
-        Self::plain("FLIP", Scheme::Explicit)
-    }
-
-    /// The explicit scheme with PIC.
-    fn pic() -> Self {
-        Self::updating("PIC", "pic")
-    }
-
-    /// The explicit scheme with APIC.
-    pub fn apic() -> Self {
-        Self::updating("APIC", "apic")
-    }
-
-    /// The explicit scheme with XPIC of order `m`.
-    pub fn xpic(m: u8) -> Self {
-        Self::updating(&format!("XPIC({m})"), "xpic").setting(format!("integrator.order={m}"))
-    }
-
-    /// The explicit scheme with FMPM of order `m`.
-    pub fn fmpm(m: u8) -> Self {
-        Self::updating(&format!("FMPM({m})"), "fmpm").setting(format!("integrator.order={m}"))
-    }
-
     /// The implicit scheme.
     pub fn implicit() -> Self {
-        Self::plain("implicit", Scheme::Implicit)
+        Self::named("implicit")
     }
 
     /// Every update of the explicit scheme.
     pub fn updates() -> Vec<Self> {
-        let plain = [Self::flip(), Self::pic(), Self::apic()];
-        let filters = [Self::xpic(2), Self::xpic(5), Self::fmpm(2), Self::fmpm(5)];
-        plain.into_iter().chain(filters).collect()
+        let filters = ["XPIC(2)", "XPIC(5)", "FMPM(2)", "FMPM(5)"];
+        (["FLIP", "PIC", "APIC"].iter().chain(&filters))
+            .map(|label| Self::named(label))
+            .collect()
     }
 
     /// This method with another key set.
@@ -153,9 +139,6 @@ impl Method {
     }
 
     /// The same, which must end well.
-    ///
-    /// # Errors
-    /// What `mpm-run` said on standard error, with its exit status.
     pub(crate) fn run(&self, case: &Path, folder: &Path, more: &[&str]) -> Result<Run> {
         let output = self.attempt(case, folder, more)?;
         if !output.status.success() {

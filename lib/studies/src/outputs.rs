@@ -1,5 +1,6 @@
 //! The built tools, and reading what the real `mpm-run` wrote.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -28,9 +29,6 @@ pub(crate) fn tool(name: &str) -> Command {
 }
 
 /// Writes the bond file of synthetic wood with voxels of 1.45 um and PF: so many voxels along x, y and z, and the thickness of the adhesive.
-///
-/// # Errors
-/// What a tool or the system said.
 pub(crate) fn synthetic_bond(path: &Path, voxels: &str, slab: &str) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -79,9 +77,6 @@ fn found<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
 
 impl Run {
     /// A column of `history.csv`.
-    ///
-    /// # Errors
-    /// When it is missing or not numeric.
     pub fn history(&self, column: &str) -> Result<Vec<f64>> {
         let path = self.folder.join("history.csv");
         let mut reader = csv::Reader::from_path(&path)?;
@@ -110,9 +105,6 @@ impl Run {
     }
 
     /// The last values of columns of `history.csv`.
-    ///
-    /// # Errors
-    /// When one is missing or not numeric, or there is no row.
     pub(crate) fn ends<const N: usize>(&self, names: [&str; N]) -> Result<[f64; N]> {
         let columns = self.columns(names)?;
         if columns.iter().any(Vec::is_empty) {
@@ -164,21 +156,18 @@ impl Run {
     }
 
     /// WP of the last state about the bond plane: bottom, top and total, um.
-    ///
-    /// # Errors
-    /// What `wp-metrics` said, or what its table lacks.
     pub(crate) fn weighted_penetration(&self) -> Result<[f64; 3]> {
         let state = self.folder.join("final.mpts");
         let table = printed(tool("wp-metrics").arg("--quiet").arg(state))?;
         let mut rows = csv::Reader::from_reader(table.as_bytes());
-        let header = rows.headers()?.clone();
-        let column = |name: &str| header.iter().position(|n| n == name);
-        let (side, wp) = (column("side").unwrap_or(0), column("wp_um").unwrap_or(0));
-        let rows: Vec<csv::StringRecord> = rows.records().filter_map(Result::ok).collect();
-        let of = |name: &str| {
-            let row = rows.iter().find(|row| row.get(side) == Some(name));
-            let number = row.and_then(|row| row.get(wp)?.parse().ok());
-            number.ok_or_else(|| format!("wp-metrics printed no {name}"))
+        let rows = rows.deserialize().filter_map(Result::ok);
+        let rows: Vec<HashMap<String, String>> = rows.collect();
+        let of = |side: &str| {
+            let row = rows
+                .iter()
+                .find(|row| row.get("side").is_some_and(|of| of == side));
+            let number = row.and_then(|row| row.get("wp_um")?.parse().ok());
+            number.ok_or_else(|| format!("wp-metrics printed no {side}"))
         };
         Ok([of("bottom")?, of("top")?, of("total")?])
     }

@@ -44,9 +44,6 @@ pub struct Study {
 impl Study {
     /// The study `name`, which writes its pages to `results`, on what is named by a word that holds
     /// one of `only`, or on all.
-    ///
-    /// # Errors
-    /// The system's reason why there is no folder of results.
     pub fn begin(name: &str, results: &Path, only: &[String]) -> Result<Self> {
         std::fs::create_dir_all(results).map_err(|e| format!("{}: {e}", results.display()))?;
         Ok(Self {
@@ -72,9 +69,6 @@ impl Study {
     }
 
     /// Refuses parts of names of which none was asked for.
-    ///
-    /// # Errors
-    /// The parts.
     pub fn check_only(&self) -> Result<()> {
         match self.found.load(Ordering::Relaxed) {
             true => Ok(()),
@@ -130,6 +124,13 @@ impl Study {
     }
 }
 
+/// A page's text with values, without the ends of their last lines, in the places of their `{names}`.
+pub(crate) fn filled(page: &str, values: &[(&str, &str)]) -> String {
+    values.iter().fold(page.to_owned(), |text, (name, value)| {
+        text.replace(&format!("{{{name}}}"), value.trim_end_matches('\n'))
+    })
+}
+
 /// A table of a page: the line of its heads and its rows, cells between bars.
 pub(crate) fn table(heads: &str, rows: impl IntoIterator<Item = String>) -> String {
     let rule = "---|".repeat(heads.matches('|').count() - 1);
@@ -181,10 +182,7 @@ pub(crate) fn side_by_side<P: Sync, T: Send, C: FromParallelIterator<T>>(
     list.par_iter().with_max_len(1).map(work).collect()
 }
 
-/// What `command` ended with, whatever its exit status.
-///
-/// # Errors
-/// It could not be started, or was killed because it took longer than the studies' time limit.
+/// What `command` ended with, whatever its exit status; killed, and an error, where it takes longer than [`LIMIT`].
 pub(crate) fn ended(command: &mut Command) -> Result<Output> {
     let name = command.get_program().display().to_string();
     let child = command
@@ -207,21 +205,15 @@ pub(crate) fn ended(command: &mut Command) -> Result<Output> {
 }
 
 /// The same of a command that ended well.
-///
-/// # Errors
-/// What it said where it did not.
 pub(crate) fn done(command: &mut Command) -> Result<Output> {
     let output = ended(command)?;
     match output.status.success() {
         true => Ok(output),
-        false => Err(said(&output).into()),
+        false => Err(format!("{}: {}", output.status, said(&output)).into()),
     }
 }
 
 /// What such a command printed.
-///
-/// # Errors
-/// What it said where it did not end well.
 pub(crate) fn printed(command: &mut Command) -> Result<String> {
     let output = done(command)?;
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())

@@ -11,15 +11,23 @@ pub trait Dimension {
     const SIZE: [f64; 2];
 }
 
-macro_rules! dimension {
-    ($(#[$doc:meta])* $name:ident, $words:literal, $units:expr, $size:expr) => {
-        $(#[$doc])*
+macro_rules! dimensions {
+    ($($(#[$doc:meta])* $name:ident, $words:literal, $units:expr, $size:expr;)*) => {
+        $($(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name;
         impl Dimension for $name {
             const NAME: &'static str = $words;
             const UNITS: &'static [(&'static str, f64)] = $units;
             const SIZE: [f64; 2] = $size;
+        })*
+
+        /// What a unit symbol measures, and what one of it is in SI.
+        pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
+            $(if let Some((_, factor)) = $name::UNITS.iter().find(|(name, _)| *name == symbol) {
+                return Some(($name::NAME, *factor));
+            })*
+            None
         }
     };
 }
@@ -27,58 +35,33 @@ macro_rules! dimension {
 /// Where nothing narrower is known.
 const ANY: [f64; 2] = [1e-30, 1e30];
 
-dimension!(/// Length, SI metre.
-    Length, "a length", &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("nm", 1e-9)], [1e-12, 1e9]);
-dimension!(/// Time, SI second.
-    Time, "a time", &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("ns", 1e-9), ("min", 60.0), ("h", 3600.0)], ANY);
-dimension!(/// Speed, SI metre per second.
-    Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("nm/s", 1e-9), ("mm/min", 1e-3 / 60.0)], ANY);
-dimension!(/// Pressure or modulus, SI pascal.
-    Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], ANY);
-dimension!(/// Dynamic viscosity, SI pascal second.
-    Viscosity, "a viscosity", &[("Pa s", 1.0), ("Pa.s", 1.0), ("mPa s", 1e-3), ("mPa.s", 1e-3), ("cP", 1e-3), ("P", 0.1)], ANY);
-dimension!(/// Consistency of a power law, SI pascal second to the power n.
-    Consistency, "a consistency", &[("Pa s^n", 1.0), ("Pa.s^n", 1.0), ("mPa s^n", 1e-3)], ANY);
-dimension!(/// Energy of a mole, SI joule per mole.
-    MolarEnergy, "an energy of a mole", &[("J/mol", 1.0), ("kJ/mol", 1e3), ("kcal/mol", 4184.0)], [1.0, 1e6]);
-dimension!(/// Diffusivity, SI square metre per second.
-    Diffusivity, "a diffusivity", &[("m2/s", 1.0), ("mm2/s", 1e-6), ("um2/s", 1e-12)], ANY);
-dimension!(/// Mass density, SI kilogram per cubic metre.
-    Density, "a density", &[("kg/m3", 1.0), ("g/cm3", 1e3)], ANY);
-dimension!(/// Acceleration, SI metre per second squared.
-    Acceleration, "an acceleration", &[("m/s2", 1.0)], ANY);
-dimension!(/// Shear rate, SI one per second.
-    ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY);
-dimension!(/// Mass of adhesive over bond area, SI kilogram per square metre.
-    Spread, "a spread rate", &[("kg/m2", 1.0), ("g/m2", 1e-3), ("lb/1000ft2", 4.882_427_636_383_05e-3)], ANY);
-dimension!(/// Surface tension, SI newton per metre.
-    SurfaceTension, "a surface tension", &[("N/m", 1.0), ("mN/m", 1e-3), ("dyn/cm", 1e-3)], [1e-9, 1e3]);
-dimension!(/// Plane angle, SI radian.
-    Angle, "an angle", &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0), ("°", std::f64::consts::PI / 180.0)], [1e-30, 1e3]);
-
-/// What a unit symbol measures, and what one of it is in SI.
-pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
-    fn of<D: Dimension>(symbol: &str) -> Option<(&'static str, f64)> {
-        let (_, factor) = D::UNITS.iter().find(|(name, _)| *name == symbol)?;
-        Some((D::NAME, *factor))
-    }
-    macro_rules! first {
-        ($($dimension:ty),*) => { None$(.or_else(|| of::<$dimension>(symbol)))* };
-    }
-    first!(
-        Length,
-        Time,
-        Speed,
-        Pressure,
-        Viscosity,
-        Density,
-        Acceleration,
-        ShearRate,
-        Consistency,
-        MolarEnergy,
-        Spread,
-        Diffusivity,
-        SurfaceTension,
-        Angle
-    )
+dimensions! {
+    /// Length, SI metre.
+    Length, "a length", &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("nm", 1e-9)], [1e-12, 1e9];
+    /// Time, SI second.
+    Time, "a time", &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("ns", 1e-9), ("min", 60.0), ("h", 3600.0)], ANY;
+    /// Speed, SI metre per second.
+    Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("nm/s", 1e-9), ("mm/min", 1e-3 / 60.0)], ANY;
+    /// Pressure or modulus, SI pascal.
+    Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], ANY;
+    /// Dynamic viscosity, SI pascal second.
+    Viscosity, "a viscosity", &[("Pa s", 1.0), ("Pa.s", 1.0), ("mPa s", 1e-3), ("mPa.s", 1e-3), ("cP", 1e-3), ("P", 0.1)], ANY;
+    /// Mass density, SI kilogram per cubic metre.
+    Density, "a density", &[("kg/m3", 1.0), ("g/cm3", 1e3)], ANY;
+    /// Acceleration, SI metre per second squared.
+    Acceleration, "an acceleration", &[("m/s2", 1.0)], ANY;
+    /// Shear rate, SI one per second.
+    ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY;
+    /// Consistency of a power law, SI pascal second to the power n.
+    Consistency, "a consistency", &[("Pa s^n", 1.0), ("Pa.s^n", 1.0), ("mPa s^n", 1e-3)], ANY;
+    /// Energy of a mole, SI joule per mole.
+    MolarEnergy, "an energy of a mole", &[("J/mol", 1.0), ("kJ/mol", 1e3), ("kcal/mol", 4184.0)], [1.0, 1e6];
+    /// Mass of adhesive over bond area, SI kilogram per square metre.
+    Spread, "a spread rate", &[("kg/m2", 1.0), ("g/m2", 1e-3), ("lb/1000ft2", 4.882_427_636_383_05e-3)], ANY;
+    /// Diffusivity, SI square metre per second.
+    Diffusivity, "a diffusivity", &[("m2/s", 1.0), ("mm2/s", 1e-6), ("um2/s", 1e-12)], ANY;
+    /// Surface tension, SI newton per metre.
+    SurfaceTension, "a surface tension", &[("N/m", 1.0), ("mN/m", 1e-3), ("dyn/cm", 1e-3)], [1e-9, 1e3];
+    /// Plane angle, SI radian.
+    Angle, "an angle", &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0), ("°", std::f64::consts::PI / 180.0)], [1e-30, 1e3];
 }

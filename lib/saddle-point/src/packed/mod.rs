@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::SolveError;
 use crate::csr::Rows;
 use crate::simd::dispatch;
-use crate::vector::CHUNK;
+use crate::vector::{CHUNK, Work};
 use packer::Packer;
 use product::FineProduct;
 
@@ -34,9 +34,12 @@ const UNIT: f64 = 32767.0;
 /// Parts of a unit that the second number counts, of 32 bits.
 const FINE: f64 = 4_294_967_296.0;
 
+/// A value for each of them.
+pub(crate) type Lanes<T = Work> = [T; LANES];
+
 /// Eight fixed-point values, and what they lack.
-type Values = [i16; LANES];
-type Rests = [i32; LANES];
+type Values = Lanes<i16>;
+type Rests = Lanes<i32>;
 
 /// A square matrix with unit diagonal, which is not stored.
 pub(crate) struct PackedMatrix {
@@ -149,18 +152,11 @@ impl PackedMatrix {
 mod tests {
     use super::*;
     use crate::csr::{Csr, RowEntries, assemble_chunks};
-    use crate::vector::Work;
 
     struct Plain;
 
     impl Finish for Plain {
-        fn finish(
-            &self,
-            _: usize,
-            _: &[Work; LANES],
-            product: [Work; LANES],
-            out: &mut [Work; LANES],
-        ) {
+        fn finish(&self, _: usize, _: &Lanes, product: Lanes, out: &mut Lanes) {
             *out = product;
         }
     }

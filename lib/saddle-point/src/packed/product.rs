@@ -1,6 +1,6 @@
 //! Products of packed rows.
 
-use super::{FINE, LANES, PackedRows, UNIT, WINDOW, entry};
+use super::{FINE, LANES, Lanes, PackedRows, UNIT, WINDOW, entry};
 use crate::simd::Kernel;
 use crate::vector::{CHUNK, Work};
 
@@ -13,13 +13,7 @@ pub(crate) trait Finish: Sync {
     }
 
     /// Takes the product of block `block` with a vector that is `here` in that block; must be `#[inline(always)]`.
-    fn finish(
-        &self,
-        block: usize,
-        here: &[Work; LANES],
-        product: [Work; LANES],
-        out: &mut [Work; LANES],
-    );
+    fn finish(&self, block: usize, here: &Lanes, product: Lanes, out: &mut Lanes);
 }
 
 /// `(I + |M|) x`, with `M` the off-diagonal part.
@@ -32,13 +26,7 @@ impl Finish for Absolute {
     }
 
     #[inline(always)]
-    fn finish(
-        &self,
-        _: usize,
-        here: &[Work; LANES],
-        product: [Work; LANES],
-        out: &mut [Work; LANES],
-    ) {
+    fn finish(&self, _: usize, here: &Lanes, product: Lanes, out: &mut Lanes) {
         *out = std::array::from_fn(|i| here[i] + product[i]);
     }
 }
@@ -51,7 +39,7 @@ pub(super) struct Product<'a, F> {
     pub(super) x_start: usize,
     /// Block from which on.
     pub(super) first: usize,
-    pub(super) out: &'a mut [[Work; LANES]],
+    pub(super) out: &'a mut [Lanes],
     pub(super) finish: &'a F,
 }
 

@@ -151,18 +151,13 @@ fn cut<'v>(rest: &mut &'v mut [Work], start: usize, end: usize) -> &'v mut [Work
 mod tests {
     use super::*;
     use crate::csr::assemble_chunks;
+    use crate::packed::Lanes;
 
     /// A step that depends on the row, its iterate and the one before.
     struct Mix(Work);
 
     impl Finish for Mix {
-        fn finish(
-            &self,
-            block: usize,
-            here: &[Work; LANES],
-            product: [Work; LANES],
-            out: &mut [Work; LANES],
-        ) {
+        fn finish(&self, block: usize, here: &Lanes, product: Lanes, out: &mut Lanes) {
             for (i, out) in out.iter_mut().enumerate() {
                 *out = 0.3 * here[i] - 0.2 * *out + self.0 * product[i] + (block % 5) as Work;
             }

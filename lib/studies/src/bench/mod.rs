@@ -22,9 +22,6 @@ struct Row {
 }
 
 /// The study, on the sizes and methods so named.
-///
-/// # Errors
-/// What a tool said.
 pub fn run(study: &Study) -> Result<bool> {
     let folder = study.folder();
     let base = std::env::var_os("BASE").map(PathBuf::from);

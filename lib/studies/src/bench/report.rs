@@ -1,10 +1,8 @@
 //! Results of the bench: a page and a table.
 
-use std::fmt::Write as _;
-
 use super::Row;
 use crate::Result;
-use crate::study::{Study, table};
+use crate::study::{Study, filled, table};
 
 const COLUMNS: &str = "size,case,threads,liquid_cells,points,steps,cpu_us_per_cell_step,\
                        cpu_over_base,points_steps_per_cpu_s,wall_s_per_step,bytes_per_cell,stages";
@@ -59,23 +57,10 @@ fn stages(row: &Row) -> String {
 }
 
 fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
-    let mut page = format!("# Speed and memory\n\n{}.\n\n", study.origin());
-    page.push_str(
-        "Synthetic specimens of the paper's wood and slab, pressed from the start for some steps; the \
-         times are those of the stages of the steps, so that reading and writing do not count. \
-         A liquid cell is eight material points. Ratio: processor time for the same time of the press \
-         over that of the build named by `BASE`, run next to it. Memory is the peak of the whole process.\n\n",
-    );
     let streams: Vec<String> = bandwidth
         .iter()
         .map(|(n, rate)| format!("{:.1} GB/s with {n}", rate / 1e9))
         .collect();
-    let _ = writeln!(
-        page,
-        "Memory streams (triad, threads): {}. The column of bytes says what could be streamed in the time that \
-         a step takes per liquid cell.\n",
-        streams.join(", ")
-    );
     let heads = "| specimen | case | threads | liquid cells | CPU us per cell and step | ratio | points x steps per CPU s | \
          streamable bytes per cell and step | memory per cell | wall s per step | stages |";
     let one = bandwidth.first().map_or(f64::NAN, |b| b.1);
@@ -95,5 +80,10 @@ fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
             stages(row)
         )
     };
-    page + &table(heads, rows.iter().map(line))
+    let values = [
+        ("origin", study.origin()),
+        ("streams", &streams.join(", ")),
+        ("table", &table(heads, rows.iter().map(line))),
+    ];
+    filled(include_str!("page.txt"), &values)
 }

@@ -88,9 +88,6 @@ impl Piece {
 
     /// What a step costs by the build in a folder: the part of the run's processor time that its stages take of the
     /// clock, so that neither start nor end counts.
-    ///
-    /// # Errors
-    /// What `mpm-run` said.
     pub(super) fn cost(&self, bin: &Path, bond: &Path, folder: &Path) -> Result<Cost> {
         let start = Instant::now();
         let run = self.press(bin, bond, folder)?;
@@ -145,9 +142,6 @@ impl Piece {
 }
 
 /// The bond file of a size; made once, by this build.
-///
-/// # Errors
-/// What a tool said.
 pub(super) fn specimen(size: &str, folder: &Path) -> Result<PathBuf> {
     // Voxels along x, y, z, and the thickness of the adhesive.
     let (voxels, slab) = match size {

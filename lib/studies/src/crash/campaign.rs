@@ -1,4 +1,5 @@
-//! A fault at every call of a run that is new, stopped, continued, or replaces another.
+//! A fault at every call of a run that is new, stopped, continued, or replaces another; and runs killed or told to
+//! stop several times in a row.
 
 use std::os::unix::process::ExitStatusExt;
 
@@ -58,26 +59,54 @@ struct Trials {
 }
 
 /// Kills, and failing calls, at every `stride`-th point of all series; a row for each.
-///
-/// # Errors
-/// What keeps the campaign from being made.
-pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
+pub fn rows(stride: usize) -> Result<Vec<Row>> {
     let mut rows = Vec::new();
     for series in SERIES {
         for scheme in Scheme::ALL {
             let trials = Trials::new(series, scheme)?;
             for (fault, name) in [(Fault::Kill, "kill"), (Fault::Fail, "failing call")] {
-                let points: Vec<Point> =
-                    trials.points(fault)?.into_iter().step_by(stride).collect();
-                let row = Row::new(series.0, scheme, name, &points, |point| {
-                    trials.trial(point, fault)
-                });
-                tell(&row);
-                rows.push(row);
+                let points = trials.points(fault)?.into_iter().step_by(stride);
+                let trial = |point: &Point| trials.trial(point, fault);
+                let points: Vec<Point> = points.collect();
+                rows.push(Row::new(series.0, scheme, name, &points, trial));
             }
         }
     }
     Ok(rows)
+}
+
+/// Faults before a run is let go to its end.
+const FAULTS: usize = 6;
+
+/// `count` runs of each scheme, named by their seeds, that are killed or told to stop each time somewhere else.
+pub fn interrupted(count: u64) -> Result<Vec<Row>> {
+    let more = ["--resume"];
+    let seeds: Vec<u64> = (0..count).collect();
+    let of_scheme = |scheme| {
+        let whole = Place::new(scheme)?;
+        let points = faults::points(&whole, &more, &[])?;
+        let trial = |&seed: &u64| {
+            let (place, mut random) = (Place::new(scheme)?, seed);
+            for _ in 0..FAULTS {
+                // Knuth's linear congruential generator; its high bits are good enough to choose points.
+                random = (random.wrapping_mul(6_364_136_223_846_793_005))
+                    .wrapping_add(1_442_695_040_888_963_407);
+                let (point, _) = &points[(random >> 33) as usize % points.len()];
+                let fault = [Fault::Kill, Fault::Terminate][(random >> 32 & 1) as usize];
+                let output = faults::run(&place, &more, &[(point, fault)])?;
+                let status = output.status;
+                match (status.code(), status.signal()) {
+                    // SIGTERM kills a process that has only begun.
+                    (Some(0 | 75), _) | (None, Some(9 | 15)) => {}
+                    _ => return Err(format!("{point}: {status:?}, {}", said(&output)).into()),
+                }
+            }
+            place.ends_like(&whole, &more)
+        };
+        let (series, fault) = ("run interrupted six times", "kill or stop");
+        Ok(Row::new(series, scheme, fault, &seeds, trial))
+    };
+    Scheme::ALL.into_iter().map(of_scheme).collect()
 }
 
 impl Trials {

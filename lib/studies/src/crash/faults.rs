@@ -61,9 +61,6 @@ pub(super) fn run(place: &Place, more: &[&str], faults: &[(&Point, Fault)]) -> R
 }
 
 /// The points of a run with `faults`, those after the last fault only, and what it wrote at each.
-///
-/// # Errors
-/// A trace that cannot be made.
 pub(super) fn points(
     place: &Place,
     more: &[&str],

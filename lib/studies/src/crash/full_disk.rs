@@ -14,10 +14,7 @@ pub fn available() -> bool {
 }
 
 /// Both schemes, at every `stride`-th byte.
-///
-/// # Errors
-/// What keeps the trials from being made.
-pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
+pub fn rows(stride: usize) -> Result<Vec<Row>> {
     // Fewer snapshots: the limit is on every file, and only the history shall meet it.
     let more = ["--resume", "--set", "output.snapshots=0"];
     let limited = "trap '' XFSZ; exec prlimit --fsize=\"$0\" \"$@\"";
@@ -28,8 +25,7 @@ pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
         let text = history.strip_suffix(b"\n").unwrap_or(&history);
         let start = 1 + text.iter().rposition(|&b| b == b'\n').unwrap_or(0);
         let limits: Vec<usize> = (start..history.len()).step_by(stride).collect();
-        let (series, fault) = ("disk full within the last row", "short write");
-        let row = Row::new(series, scheme, fault, &limits, |limit| {
+        let trial = |limit: &usize| {
             let place = Place::new(scheme)?;
             let words = ["bash", "-c", limited, &limit.to_string()].map(String::from);
             let output = ended(&mut place.command(&words, &more))?;
@@ -37,9 +33,9 @@ pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
                 return Err(format!("{:?}, {}", output.status, said(&output)).into());
             }
             place.ends_like(&whole, &more)
-        });
-        tell(&row);
-        Ok(row)
+        };
+        let (series, fault) = ("disk full within the last row", "short write");
+        Ok(Row::new(series, scheme, fault, &limits, trial))
     };
     Scheme::ALL.into_iter().map(of_scheme).collect()
 }

@@ -2,7 +2,6 @@
 //! they change their folder must, continued, end byte for byte as the run in one piece.
 
 pub mod campaign;
-pub mod chains;
 pub mod faults;
 pub mod full_disk;
 mod place;
@@ -27,7 +26,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// Trials by a scheme, done side by side; those that fail are named in their sentences.
+    /// Trials by a scheme, done side by side and said on standard output; those that fail are named in
+    /// their sentences.
     fn new<T: Sync + std::fmt::Display>(
         series: &'static str,
         scheme: Scheme,
@@ -38,23 +38,18 @@ impl Row {
         let done: Vec<Result<()>> = side_by_side(trials, trial);
         let done = trials.iter().zip(done);
         let wrong = done.filter_map(|(of, done)| Some(format!("{of}: {}", done.err()?)));
+        let wrong: Vec<String> = wrong.collect();
+        let (scheme, trials) = (scheme.name(), trials.len());
+        let right = trials - wrong.len();
+        let first = (wrong.first()).map_or(String::new(), |said| format!("; first: {said}"));
+        println!("{series:<44} {scheme:<9} {fault:<12} {right} of {trials} as they must{first}");
         Self {
             series,
-            scheme: scheme.name(),
+            scheme,
             fault,
-            trials: trials.len(),
-            wrong: wrong.collect(),
+            trials,
+            wrong,
         }
-    }
-
-    /// A line for the terminal.
-    pub fn line(&self) -> String {
-        let (right, trials) = (self.trials - self.wrong.len(), self.trials);
-        let first = (self.wrong.first()).map_or(String::new(), |said| format!("; first: {said}"));
-        format!(
-            "{:<44} {:<9} {:<12} {right} of {trials} as they must{first}",
-            self.series, self.scheme, self.fault
-        )
     }
 }
 
@@ -64,24 +59,17 @@ const ROUNDS: usize = 100;
 const CHAINS: u64 = 100;
 
 /// The study, all of it whatever is asked for.
-///
-/// # Errors
-/// What keeps the trials from being made.
 pub fn run(study: &Study) -> Result<bool> {
-    let tell = |row: &Row| println!("{}", row.line());
-    let (mut rows, mut left_out) = (Vec::new(), Vec::new());
-    for row in [together::at_once(ROUNDS)?, together::meanwhile(ROUNDS)?] {
-        tell(&row);
-        rows.push(row);
-    }
+    let mut rows = vec![together::at_once(ROUNDS)?, together::meanwhile(ROUNDS)?];
+    let mut left_out = Vec::new();
     if full_disk::available() {
-        rows.extend(full_disk::rows(1, tell)?);
+        rows.extend(full_disk::rows(1)?);
     } else {
         left_out.push("the full disk, as `prlimit` is not installed");
     }
     if faults::available() {
-        rows.extend(campaign::rows(1, tell)?);
-        rows.extend(chains::rows(CHAINS, tell)?);
+        rows.extend(campaign::rows(1)?);
+        rows.extend(campaign::interrupted(CHAINS)?);
     } else {
         left_out.push("kills and failing calls, as `strace` is not installed or may not trace");
     }

@@ -8,10 +8,9 @@ use std::process::Command;
 use tempfile::TempDir;
 
 use crate::Result;
-use crate::case_text::{Body, CaseText};
 use crate::method::Scheme;
 use crate::outputs::bin_folder;
-use crate::study::{ended, said};
+use crate::study::{done, filled};
 
 /// Keys of `summary.json` that say what a run cost, which no two runs share.
 const COSTS: [&str; 5] = [
@@ -25,24 +24,13 @@ const COSTS: [&str; 5] = [
 /// A case of about thirty steps, each with a row, and four or five snapshots, in some milliseconds: liquid between two
 /// plates, pressed out at the sides.
 fn case(scheme: Scheme) -> String {
-    let (um, cell) = (1e-6, 2e-6);
-    let (integrator, stop) = match scheme {
+    let (more, stop) = match scheme {
         Scheme::Explicit => ("", "0.007 us"),
         Scheme::Implicit => ("\ncfl = 0.05", "2.95 us"),
     };
-    let mut case = CaseText::plane(cell, [24.0 * um, 30.0 * um]);
-    case.title = "thirty steps".into();
-    let plate = |y: [f64; 2]| Body::wall([0.0, y[0], 0.0], [24.0 * um, y[1], cell]);
-    case.bodies = vec![
-        plate([0.0, 6.0 * um]).named("bottom"),
-        plate([16.0 * um, 30.0 * um]).clamped().named("top"),
-        Body::liquid([0.0, 6.0 * um, 0.0], [4.0 * um, 16.0 * um, cell]),
-    ];
-    case.clamp = Some(format!(
-        "closing_speed = \"1 m/s\"\nmax_pressure = \"2.5 MPa\"\ntravel = \"4 um\"\nstop = \"{stop}\""
-    ));
-    case.history_every = 1e-15;
-    case.text(&format!("{}{integrator}", scheme.integrator()))
+    let integrator = format!("{}{more}", scheme.integrator());
+    let values = [("integrator", &*integrator), ("stop", stop)];
+    filled(include_str!("case.toml"), &values)
 }
 
 /// A folder with `case.toml`, in which runs go to `run`.
@@ -90,15 +78,8 @@ impl Place {
     }
 
     /// Runs it as a user would.
-    ///
-    /// # Errors
-    /// What it said where it did not end well.
     pub(super) fn done(&self, more: &[&str]) -> Result<()> {
-        let output = ended(&mut self.command(&[], more))?;
-        match output.status.success() {
-            true => Ok(()),
-            false => Err(format!("{:?}: {}", output.status, said(&output)).into()),
-        }
+        done(&mut self.command(&[], more)).map(drop)
     }
 
     /// The files below the run folder, by name.
@@ -117,9 +98,6 @@ impl Place {
     }
 
     /// Lets a run end, which must hold the same as `whole`.
-    ///
-    /// # Errors
-    /// What it said, or what differs.
     pub(super) fn ends_like(&self, whole: &Place, more: &[&str]) -> Result<()> {
         self.done(more).map_err(|said| format!("then {said}"))?;
         whole.same(self)
@@ -127,9 +105,6 @@ impl Place {
 
     /// Whether another's run folder holds the same: all files byte for byte, the costs in `summary.json`
     /// aside.
-    ///
-    /// # Errors
-    /// The first file that differs.
     pub(super) fn same(&self, other: &Place) -> Result<()> {
         let (one, other) = (self.content(), other.content());
         if !one.keys().eq(other.keys()) {

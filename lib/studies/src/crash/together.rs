@@ -14,39 +14,28 @@ use crate::study::{ended, said, terminate};
 const SCHEME: Scheme = Scheme::Explicit;
 
 /// Two started at the same moment, `rounds` times: one ends well, the other exits 2.
-///
-/// # Errors
-/// The system's reason.
 pub fn at_once(rounds: usize) -> Result<Row> {
     let whole = Place::new(SCHEME)?;
     whole.done(&[])?;
-    let round = || {
+    let rounds: Vec<usize> = (0..rounds).collect();
+    let series = "two runs started at once";
+    Ok(Row::new(series, SCHEME, "second run", &rounds, |_| {
         let place = Place::new(SCHEME)?;
-        let [one, other] = [start(&place, &[])?, start(&place, &[])?];
-        let mut codes =
-            [one.wait_with_output()?, other.wait_with_output()?].map(|o| o.status.code());
+        let both = [start(&place, &[])?, start(&place, &[])?];
+        let mut codes = Vec::new();
+        for run in both {
+            codes.push(run.wait_with_output()?.status.code());
+        }
         codes.sort_unstable();
         if codes != [Some(0), Some(2)] {
             return Err(format!("ended with {codes:?}").into());
         }
         whole.same(&place)
-    };
-    Ok(Row {
-        series: "two runs started at once",
-        scheme: SCHEME.name(),
-        fault: "second run",
-        trials: rounds,
-        wrong: (0..rounds)
-            .filter_map(|_| Some(round().err()?.to_string()))
-            .collect(),
-    })
+    }))
 }
 
 /// `rounds` second runs while a first one is on, by several ways and spellings: all exit 2, and the
 /// first goes on undisturbed.
-///
-/// # Errors
-/// The system's reason.
 pub fn meanwhile(rounds: usize) -> Result<Row> {
     let place = Place::new(SCHEME)?;
     std::os::unix::fs::symlink("run", place.path().join("link"))?;
@@ -76,14 +65,17 @@ pub fn meanwhile(rounds: usize) -> Result<Row> {
         &["--overwrite", "--resume", "-o", "./link/../link/"],
         &["--overwrite", "-o", &absolute],
     ];
-    let mut wrong = Vec::new();
-    for way in ways.iter().cycle().take(rounds) {
-        let second = ended(&mut second(&place, way))?;
-        let told = said(&second);
-        if second.status.code() != Some(2) || !told.contains("another run is writing") {
-            wrong.push(format!("{way:?}: {:?}, {told}", second.status));
+    let rounds: Vec<usize> = (0..rounds).collect();
+    let series = "second run while the first is on";
+    let row = Row::new(series, SCHEME, "second run", &rounds, |round| {
+        let way = ways[round % ways.len()];
+        let output = ended(&mut second(&place, way))?;
+        let told = said(&output);
+        match output.status.code() == Some(2) && told.contains("another run is writing") {
+            true => Ok(()),
+            false => Err(format!("{way:?}: {:?}, {told}", output.status).into()),
         }
-    }
+    });
     if let Some(ended) = first.try_wait()? {
         return Err(format!("the first run was too short: {ended}").into());
     }
@@ -93,13 +85,7 @@ pub fn meanwhile(rounds: usize) -> Result<Row> {
         let (status, said) = (ended.status, said(&ended));
         return Err(format!("the first run: {status:?}, {said}").into());
     }
-    Ok(Row {
-        series: "second run while the first is on",
-        scheme: SCHEME.name(),
-        fault: "second run",
-        trials: rounds,
-        wrong,
-    })
+    Ok(row)
 }
 
 fn start(place: &Place, more: &[&str]) -> Result<Child> {

@@ -7,6 +7,7 @@ use crate::Result;
 use crate::method::Method;
 use crate::numbers::last;
 use crate::study::{Study, side_by_side};
+use crate::verification::lumen::Section;
 
 /// Density of glycerol, kg/m3.
 pub(super) const DENSITY: f64 = 1260.0;
@@ -163,12 +164,7 @@ impl Rise {
     pub(super) fn law(&self, time: f64) -> f64 {
         let voxels = Voxels::new(self.tube, self.cells);
         let (h, d) = (voxels.cell, 2.0 * self.tube.radius);
-        // Pressure gradient of developed flow over viscosity, mean speed and squared diameter: finite differences between the steps of
-        // the walls.
-        let resistance = match self.cells {
-            4 => 34.719,
-            _ => 35.944,
-        };
+        let resistance = Section::Round(2).staircase_resistance(self.cells);
         let narrow = [4.0 / d, 1.0 / (POOL[0] * h)];
         let weight = DENSITY * GRAVITY;
         let slowing = (self.slowing - ENDS).max(0.0);

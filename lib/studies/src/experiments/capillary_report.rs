@@ -1,11 +1,10 @@
 //! Capillary rise in the page: text, table and figure.
 
-use std::fmt::Write as _;
-
 use figures::{Mark, Plot};
 
 use super::capillary::{Rise, SLOWING};
-use crate::study::{PAGE, Study, distinct, table};
+use super::met;
+use crate::study::{PAGE, Study, distinct, filled, table};
 use crate::{Result, numbers};
 
 /// Goal for a run against the equation of motion of the same tube.
@@ -75,13 +74,6 @@ fn plot(all: &[Rise]) -> Plot {
 }
 
 fn section(all: &[Rise]) -> String {
-    let mut out = format!(
-        "## Capillary rise with a dynamic contact angle\n\n\
-         Glycerol in three glass tubes: cos(angle) = cos(5.6 degrees) - k Ca. The heights and angles themselves (Heshmati & Piri 2014) are not public. Public are the k that Lunowa et al. fitted to them,\n\
-         to heights alone, to angles alone and to both ([which version](../../lib/studies/reference/README.md#capillary-rise-that-others-fitted)), and samples of the fitted curve, which are no measurement.\n\
-         So `mpm-run` is held against two equations of motion (weight, friction of the tube, k): that of the **same tube** of voxels with its mouth, dip and pool, which checks the scheme; and that of a round tube without\n\
-         ends with the k **fitted** to that tube. One k of {SLOWING} for all three, of which mouth and dip, that no fit takes apart, are 4: `dynamic_angle = 84`.\n\n"
-    );
     let percent = |[low, high]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * low, 100.0 * high);
     let line = |rise: &Rise| {
         let fits = [2, 0, 1].map(|which| percent(against_fit(rise, which)));
@@ -96,20 +88,16 @@ fn section(all: &[Rise]) -> String {
         )
     };
     let heads = "| radius (mm) | cells across | k | against the same tube | against the fit to both | to heights | to angles | CPU s |";
-    out += &table(heads, all.iter().map(line));
-    out.push_str(
-        "\nFrom 6 % of Jurin's height on, up to 80 % with a dynamic angle. k as fitted (heights; angles; both):",
-    );
-    for tube in distinct(all.iter().map(|rise| rise.tube)) {
+    let tubes = distinct(all.iter().map(|rise| rise.tube)).into_iter();
+    let fits = tubes.map(|tube| {
         let fits = tube.fits.map(|[k, d]| format!("{k:.0} +- {d:.0}"));
-        let _ = write!(out, " {} mm {};", 1e3 * tube.radius, fits.join(", "));
-    }
-    let met = if sound(all) { "met" } else { "not met" };
-    let _ = write!(
-        out,
-        "\nthe fits to heights alone leave an rms of 1.2, 2.8 and 5.4 % of Jurin's height in the tubes of 0.25, 0.5 and 1 mm. Where heights and angles ask for different k, no one k gives both: the law is worth no more than\n\
-         the columns differ by. Goals: 3 % against the same tube and 5 % against the fit to both with one k ({met}).\n\n\
-         ![Heights over time](experiments-capillary.png)\n\n"
-    );
-    out
+        format!(" {} mm {};", 1e3 * tube.radius, fits.join(", "))
+    });
+    let values = [
+        ("k", &*SLOWING.to_string()),
+        ("table", &table(heads, all.iter().map(line))),
+        ("fits", &fits.collect::<String>()),
+        ("met", met(sound(all))),
+    ];
+    filled(include_str!("capillary.txt"), &values)
 }

@@ -93,9 +93,6 @@ impl Voxels {
     }
 
     /// Times (s) and heights over the pool (m) of the states of a run.
-    ///
-    /// # Errors
-    /// What is wrong with a state.
     pub(super) fn heights(&self, run: &Run) -> Result<Vec<[f64; 2]>> {
         let (h, area) = (self.cell, self.area());
         let within = [self.wall() * h, self.under() * h];

@@ -17,9 +17,6 @@ use crate::outputs::Run;
 use crate::study::{Study, write};
 
 /// The study.
-///
-/// # Errors
-/// What a run or the system said.
 pub fn run(study: &Study) -> Result<bool> {
     let predictions = predictions::run(study)?;
     let rises = capillary::run(study)?;
@@ -38,6 +35,11 @@ pub fn run(study: &Study) -> Result<bool> {
     page += &press;
     study.write("experiments.md", page)?;
     Ok(squeeze_report::sound(&predictions) && capillary_report::sound(&rises))
+}
+
+/// Of a goal.
+fn met(met: bool) -> &'static str {
+    if met { "met" } else { "not met" }
 }
 
 /// Runs a case by the implicit scheme, and says so.

@@ -10,7 +10,7 @@ use crate::Result;
 use crate::method::Method;
 use crate::numbers::{largest, mean};
 use crate::outputs::tool;
-use crate::study::{Study, printed, side_by_side, table};
+use crate::study::{Study, filled, printed, side_by_side, table};
 
 /// Voxels of a piece, their edge (um), and the layers below the cut.
 const SIZE: [usize; 3] = [160, 192, 64];
@@ -47,9 +47,6 @@ struct Pressed {
 }
 
 /// Presses the pieces that the study wants, and gives the section of the page.
-///
-/// # Errors
-/// What a tool or the system said.
 pub(super) fn run(study: &Study) -> Result<String> {
     if !study.wants("press") {
         return Ok(String::new());
@@ -175,13 +172,6 @@ fn pressed(folder: &Path, piece: &Piece) -> Result<Pressed> {
 }
 
 fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
-    let [nx, ny, nz] = SIZE;
-    let mut out = format!(
-        "\n## A press of real spruce beside synthetic spruce\n\n\
-         `synth-xct --adhesive none --species spruce --size {nx}x{ny}x{nz} --grain-angle \"{GRAIN} deg\"`, cut in the middle and bonded again with {SLAB} um of PF (`pipelines/cases/pf-implicit.toml`,\n\
-         closed by {TRAVEL} um or as far as 2.5 MPa do), seeds 1 to {PIECES}; and pieces of the measured section by their distance along the rays, spread over its six rings: measured cells\n\
-         at their places, borders by the power diagram of their circles, lumens of the measured areas, extruded along the same grain. Opened: how deep the cut opens lumens, the mean of each side.\n\n"
-    );
     let line = |(piece, done): (&Piece, &Result<Pressed>)| {
         let ([below, above], [low, high]) = (piece.shares, piece.opened);
         let ended = match done {
@@ -200,33 +190,33 @@ fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
         format!("| {wood} | {below:.3}, {above:.3} | {low:.1}, {high:.1} | {ended} |")
     };
     let heads = "| wood | lumens below, above | opened (um) | WP bottom / top / total (um) | most pressure (MPa) | closed (um) | CPU s |";
-    out += &table(heads, pieces.iter().zip(done).map(line));
-    out.push('\n');
-    for name in if real {
-        &["real", "synthetic"][..]
-    } else {
-        &["synthetic"]
-    } {
+    let mut means = String::new();
+    for name in ["real", "synthetic"].into_iter().skip(usize::from(!real)) {
         let own = (pieces.iter().zip(done)).filter(|(piece, _)| piece.name.starts_with(name));
         let ended: Vec<&Pressed> = own.filter_map(|(_, done)| done.as_ref().ok()).collect();
         let mean = |of: fn(&Pressed) -> f64| mean(ended.iter().copied().map(of));
         let (wp, peak, way) = (mean(|p| p.wp[2]), 1e-6 * mean(|p| p.peak), mean(|p| p.way));
         let _ = writeln!(
-            out,
+            means,
             "Mean of what ended, {name}: WP {wp:.2} um, {peak:.2} MPa at most, closed by {way:.2} um."
         );
     }
     if real {
-        out.push_str(
-            "\nBehind a cut the measured section has less room than synthetic early wood: its walls are thicker, its lumens (as rebuilt) staggered polygons, where synthetic ones are rectangles in rows. The same slab needs the whole pressure of\n\
-             the press there, and goes somewhat deeper into fewer lumens. By how much hangs more on where in the ring a piece is cut than on which wood it is: WP of either spreads by more than both means differ.\n",
-        );
+        means += include_str!("press-real.txt");
     }
-    out.push_str(
-        "Pieces that are cut where little is opened come to the pressure limit at once and close slowly; where liquid is closed in, it may press the clamp above its limit, and the run says so.\n",
-    );
-    if !real {
-        out.push_str("Real spruce is left out: ../shared is not here.\n");
+    let [nx, ny, nz] = SIZE;
+    let values = [
+        ("size", &*format!("{nx}x{ny}x{nz}")),
+        ("grain", &GRAIN.to_string()),
+        ("slab", &SLAB.to_string()),
+        ("travel", &TRAVEL.to_string()),
+        ("pieces", &PIECES.to_string()),
+        ("table", &table(heads, pieces.iter().zip(done).map(line))),
+        ("means", &means),
+    ];
+    let page = filled(include_str!("press.txt"), &values);
+    match real {
+        true => page,
+        false => page + "Real spruce is left out: ../shared is not here.\n",
     }
-    out
 }

@@ -30,9 +30,6 @@ pub(super) struct Strip {
 }
 
 /// A strip of `width` pixels of `edge` (um) across all rings; none where the cells are not here.
-///
-/// # Errors
-/// What is wrong with the table.
 pub(super) fn strip(width: usize, edge: f64) -> Result<Option<Strip>> {
     let path = Path::new(CELLS);
     if !path.is_file() {

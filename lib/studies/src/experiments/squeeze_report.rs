@@ -1,14 +1,13 @@
 //! Squeeze flows in the page: text, table and figures.
 
-use std::fmt::Write as _;
-
 use figures::{Mark, Plot};
 
+use super::met;
 use super::predictions::{CELLS, Point, Prediction};
 use super::squeeze::DENSITY;
 use crate::Result;
 use crate::numbers::{largest, range, rms};
-use crate::study::{PAGE, Study, distinct, table};
+use crate::study::{PAGE, Study, distinct, filled, table};
 
 /// From this time on (s) points of thinning liquid are to be within [`NEAR`].
 const FROM: f64 = 0.1;
@@ -109,12 +108,6 @@ fn plot(first: &[&Prediction], liquid: &str) -> Plot {
 }
 
 fn section(all: &[Prediction]) -> String {
-    let mut out = String::from(
-        "## Squeeze flow under a constant force\n\n\
-         Discs of liquid between a plate at rest and one that a constant force brings down, eight cases with ten repeats each;\n\
-         radii, volumes, forces and viscosities by rheometer from s152754/PhDproject\n\
-         ([which version](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured); no licence file: numbers only). Blind: nothing is fitted. The radius is that of the volume over the gap.\n\n",
-    );
     let some: [(&str, Wanted); 4] = [
         ("all", |_, _| true),
         ("from 0.1 s", |_, q| q.time > FROM),
@@ -130,46 +123,38 @@ fn section(all: &[Prediction]) -> String {
             format!("| {cells} | {what} | {text} |")
         })
     });
-    let heads = "| cells of the first height | points | radii | rms | range |";
-    out += &table(heads, lines);
+    let groups = "| cells of the first height | points | radii | rms | range |";
     let first = of(all, CELLS[0]);
-    let _ = write!(
-        out,
-        "\nBy case, {} cells; deviations: most of the error over the deviation of repeats and inputs.\n\n",
-        CELLS[0]
-    );
     let line = |p: &&Prediction| {
         let text = Errors::of(&[p], |_, _| true).text();
         let most = largest(p.points.iter().map(Point::deviations));
         format!("| {} | {text} | {most:.1} |", p.experiment.name)
     };
-    let heads = "| case | radii | rms | range | deviations |";
-    out += &table(heads, first.iter().map(line));
-    let trusted = Errors::of(&first, |p, _| p.is_trusted());
+    let cases = "| case | radii | rms | range | deviations |";
+    let small = |wanted| met(Errors::of(&first, wanted).rms() <= RMS);
     let height = |trusted: bool| {
         let own = first.iter().filter(|p| p.is_trusted() == trusted);
         range(own.map(|p| 1e3 * p.experiment.height()))
     };
     let ([_, doubted], [low, high]) = (height(false), height(true));
-    let met = |met: bool| if met { "met" } else { "not met" };
-    let _ = write!(
-        out,
-        "\nGoals: rms {:.1} % ({} over all radii, {} without {DOUBTED}); thinning points from 0.1 s on within 5 %, and none but {DOUBTED}\n\
-         beyond two deviations ({}). {DOUBTED} is off by the same factor at all times, as by a volume a quarter too large (R goes with its fourth root), and its first\n\
-         height, {doubted:.2} mm, is the largest of the eight ({low:.2} to {high:.2} mm): the volume is in doubt, not the flow. The inertia of a weight that presses is worth less than\n\
-         0.1 % of a radius from 0.067 s on (lubrication).\n\n{}\n\
-         ![Radii of glycerol over time](experiments-squeeze-glycerol.png)\n![Radii of the thinning solution](experiments-squeeze-pvp.png)\n\n",
-        100.0 * RMS,
-        met(Errors::of(&first, |_, _| true).rms() <= RMS),
-        met(trusted.rms() <= RMS),
-        met(sound(all)),
-        explicit(&first),
-    );
-    out
+    let values = [
+        ("groups", &*table(groups, lines)),
+        ("cells", &CELLS[0].to_string()),
+        ("cases", &table(cases, first.iter().map(line))),
+        ("rms", &format!("{:.1}", 100.0 * RMS)),
+        ("all", small(|_, _| true)),
+        ("trusted", small(|p, _| p.is_trusted())),
+        ("case", DOUBTED),
+        ("sound", met(sound(all))),
+        ("doubted", &format!("{doubted:.2}")),
+        ("heights", &format!("{low:.2} to {high:.2}")),
+        ("steps", &steps(&first)),
+    ];
+    filled(include_str!("squeeze.txt"), &values)
 }
 
-/// Why the explicit scheme predicts none of it.
-fn explicit(first: &[&Prediction]) -> String {
+/// Fewest and most steps that the explicit scheme would take.
+fn steps(first: &[&Prediction]) -> String {
     let steps = |p: &&Prediction| {
         let cell = p.experiment.height() / f64::from(CELLS[0]);
         // The viscous limit of its step; that of sound at 1 GPa is below it but for the solution.
@@ -177,8 +162,5 @@ fn explicit(first: &[&Prediction]) -> String {
         p.points.last().map_or(0.0, |q| q.time / viscous)
     };
     let [fewest, most] = range(first.iter().map(steps));
-    format!(
-        "The explicit scheme predicts none of it: it takes no stages of a press, its viscous step limit alone, rho h^2/(8 eta), makes {fewest:.0e} to {most:.0e} steps of a case in the same\n\
-         cells (sound in glycerol of 1 GPa a hundred times as many), and it places walls to half a cell where the gap closes to less than two.\n"
-    )
+    format!("{fewest:.0e} to {most:.0e}")
 }

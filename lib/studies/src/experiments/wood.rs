@@ -7,7 +7,7 @@ use voxels::Stack;
 
 use crate::Result;
 use crate::outputs::tool;
-use crate::study::{Study, done, ended, said, side_by_side, table};
+use crate::study::{Study, done, ended, filled, said, side_by_side, table};
 
 /// Edge of a voxel of the permeable pieces and of the spruce, um.
 const EDGE: [f64; 2] = [2.0, 1.45];
@@ -30,9 +30,6 @@ enum Piece {
 }
 
 /// Runs what the study wants, and gives the sections of the page.
-///
-/// # Errors
-/// What a tool or the system said.
 pub(super) fn run(study: &Study) -> Result<String> {
     let mut pieces = Vec::new();
     for species in ["hybrid-poplar", "birch"] {
@@ -111,37 +108,24 @@ fn permeability(study: &Study, piece: &Piece) -> Result<String> {
 }
 
 fn permeabilities(rows: Vec<String>, tomogram: bool) -> String {
-    let [edge, _] = EDGE;
-    let mut out = format!(
-        "## Permeability along the grain\n\n\
-         `synth-xct --adhesive none --grain-angle \"0 deg\" --size {} --voxel \"{edge} um\"`, then `wp-metrics --permeability z`: steady flow through all\n\
-         open lumens. Error: distance from cells of two voxels. Poiseuille: pi d^4/128 by the number of vessels and their median diameter, of some eight in a piece.\n\n",
-        SIZE[0]
-    );
     let heads = "| piece | porosity | permeability (m2) | error | Poiseuille (m2) | ratio | s by the clock |";
-    out += &table(heads, rows);
-    out.push_str(
-        "\nPublished: *Populus nigra* 1.05e-10 and 1.63e-10 m2 at vessel lumens of 63 and 67 um (Taghiyari et al. 2011, abstract), 0.49e-10 in outer wood (Taghiyari 2014, abstract).\n\
-         Birch carries 0.34 (water) to 0.38 (air) of Poiseuille's flow through its vessels, half of the resistance at perforation plates and a fifth of the vessels\n\
-         ending within 20 mm (Petty, abstract). The synthetic vessels are open tubes, longer than the piece, with rims where elements meet and no plates: they carry what Poiseuille says of\n\
-         their diameters and more, for the fourth power counts the widest. Real birch carries a third of that, and a press of the synthetic one goes that much too easily along the grain.\n",
-    );
-    match tomogram {
-        true => out.push_str(
-            "FiberForm, a crop of 0.13 mm of carbon fibre of 10 um (of nasa/puma, solid from grey 90 on): the material has 5.57e-11 m2 at a porosity of 0.87 (Panerai et al. 2016); across its layers (x) the crop\nhas that within 12 %, along them seven to nine times as much. So small a crop is one sample of many.\n\n",
+    let values = [
+        ("size", SIZE[0]),
+        ("edge", &EDGE[0].to_string()),
+        ("table", &table(heads, rows)),
+        (
+            "fiberform",
+            match tomogram {
+                true => include_str!("fiberform.txt"),
+                false => "FiberForm is left out: ../shared is not here.",
+            },
         ),
-        false => out.push_str("FiberForm is left out: ../shared is not here.\n\n"),
-    }
-    out
+    ];
+    filled(include_str!("wood.txt"), &values) + "\n"
 }
 
 /// The lumens of synthetic spruce beside measured ones.
 fn lumens(study: &Study) -> Result<String> {
-    let mut out = format!(
-        "## Lumens of spruce\n\nDiameters (um) of the circles of lumen areas: 11,685 cells of *Picea abies* ([LOT_PICEA of RAPTOR](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured), rings of 2007 to 2013) and the middle page of\n\
-         `synth-xct --adhesive none --species spruce --size {}`, a ring and more.\n\n",
-        SIZE[1]
-    );
     let row = |name: &str, cells: usize, of: [f64; 5]| {
         let of = of.map(|d| format!("{d:.1}")).join(" | ");
         format!("| {name} | {cells} | {of} |")
@@ -157,14 +141,7 @@ fn lumens(study: &Study) -> Result<String> {
         let of = QUANTILES.map(|q| at(q).unwrap_or(f64::NAN));
         rows.push(row(&format!("synthetic, seed {seed}"), all.len(), of));
     }
-    out += &table("| | cells | 10 % | 25 % | 50 % | 75 % | 90 % |", rows);
-    out.push_str(
-        "\nThe smallest lumens of late wood, a tenth below 8 um, are two voxels and less of 1.45 um across and stay wider here. Walls are thinner than measured (half of a double wall 1.7 to 3.4 um,\n\
-         measured 2.7 to 5.4 at 10 and 90 %): that spruce of a dry alpine valley is denser than the 430 kg/m3 that the species stands for.\n\
-         Birch's vessels stay those of Wagenführ's table, 80 um (generated 74 to 86; docs/wood.md). Its share of vessels and its vessels per mm2 ask for that: 0.25 of the section over 50 per mm2 is 80 um a vessel.\n\
-         Reports of 39 to 53 um came without a distribution, a number per mm2 or a share: at the same share they would be 113 to 209 per mm2, two to four times what the table has, and one diameter changed alone\n\
-         would be no wood that anybody measured. At the same share permeability goes with the square of the diameter, so that such wood has a quarter to a half of the birch above. What is measured of birch here is its\n\
-         basic density, 0.545 +- 0.058 g/cm3 (*Betula pendula*, Global Wood Density Database 2): shrunk by 14 % that is a porosity of 0.58 +- 0.05; the pieces above have 0.62 to 0.63.\n",
-    );
-    Ok(out)
+    let table = table("| | cells | 10 % | 25 % | 50 % | 75 % | 90 % |", rows);
+    let values = [("size", SIZE[1]), ("table", &table)];
+    Ok(filled(include_str!("lumens.txt"), &values))
 }

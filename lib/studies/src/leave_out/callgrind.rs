@@ -7,9 +7,6 @@ use crate::Result;
 use crate::study::printed;
 
 /// Instructions of a run of `command`, and of each of its functions with all that it calls.
-///
-/// # Errors
-/// What valgrind or the run said.
 pub(super) fn profile(command: &Command) -> Result<(f64, HashMap<String, f64>)> {
     let file = tempfile::NamedTempFile::new()?;
     let mut counted = Command::new("valgrind");

@@ -1,104 +1,58 @@
-//! Scenes of both schemes, each with the stages that it does without.
+//! Scenes of both schemes, each with the stages that it does without: scenes.txt.
 
-use super::stages::{CELL_MEAN, CONTACT, FILTER, LOAD, PROJECTION, Scene, TABLE};
+use super::stages::Scene;
 use crate::case_text::{Body, CaseText, Viscosity};
-use crate::method::Method;
-use crate::stability::plan::PVA_PF;
-use crate::verification::slit;
+use crate::lines::{self, Values};
+use crate::method::Scheme;
+use crate::stability::scenes::PVA_PF;
+use crate::verification;
 
-/// Simulated time of a run of the explicit and of the implicit scheme, s: some steps of each scene.
-const END: [f64; 2] = [0.1e-6, 2e-6];
-
-fn scene(
-    name: &'static str,
-    without: &'static [&'static str],
-    method: Method,
-    case: CaseText,
-) -> Scene {
-    Scene {
-        name,
-        without,
-        method,
-        case,
-    }
+/// Those of a scheme.
+pub(super) fn of(scheme: Scheme) -> Vec<Scene> {
+    lines::read(include_str!("scenes.txt"), |line| {
+        let parts: Vec<&str> = line.split(" | ").collect();
+        let [own, name, words, method, without] = parts[..] else {
+            return None;
+        };
+        if own != scheme.name() {
+            return Some(Vec::new());
+        }
+        let values = &Values::all(words)[0];
+        let mut case = match values.name {
+            "drop" => drop(values.number("stop")?),
+            _ => verification::scenes(words)?.pop()?.case,
+        };
+        match name {
+            "gravity" => case.gravity = [0.0, -9.81, 0.0],
+            "viscosity table" => case.viscosity = Viscosity::Table(PVA_PF.to_vec()),
+            "pressure limit" => held(&mut case),
+            _ => {}
+        }
+        Some(vec![Scene {
+            name,
+            without: without.split(", ").collect(),
+            method: verification::methods(method).pop()?,
+            case,
+        }])
+    })
 }
 
-/// A drop without walls and a piston that pushes liquid into a slit, by FLIP and with one option of the explicit scheme each.
-pub(super) fn explicit() -> Vec<Scene> {
-    let flip = Method::flip;
-    let [mean, projection] = [
-        "integrator.pressure=\"cell-mean\"",
-        "integrator.density_projection=\"0.01 cell\"",
-    ];
-    let [free, pressed] = [drop(), slit::scene(6, [0.0; 2]).case].map(|case| CaseText {
-        stop: Some(END[0]),
-        ..case
-    });
-    let drop = |name, without, method| scene(name, without, method, free.clone());
-    vec![
-        drop(
-            "free drop",
-            &[CONTACT, FILTER, CELL_MEAN, PROJECTION],
-            flip(),
-        ),
-        scene("piston", &[FILTER, CELL_MEAN, PROJECTION], flip(), pressed),
-        drop(
-            "XPIC(2)",
-            &[CONTACT, CELL_MEAN, PROJECTION],
-            Method::xpic(2),
-        ),
-        drop(
-            "cell-mean pressure",
-            &[CONTACT, FILTER, PROJECTION],
-            flip().setting(mean),
-        ),
-        drop(
-            "density projection",
-            &[CONTACT, FILTER, CELL_MEAN],
-            flip().setting(projection),
-        ),
-    ]
-}
-
-/// The same piston by the implicit scheme, alone and with one thing more, and the drop.
-pub(super) fn implicit() -> Vec<Scene> {
-    let scene = |name, without, case| scene(name, without, Method::implicit(), case);
-    let [drop, piston] = [drop(), slit::scene(6, [0.0; 2]).case].map(|case| CaseText {
-        stop: Some(END[1]),
-        ..case
-    });
-    let mut held = CaseText {
-        stop: None,
-        clamp: Some(format!(
-            "closing_speed = \"0.5 m/s\"\nmax_pressure = \"0.3 MPa\"\ntravel = \"5 um\"\ntime_limit = \"{} us\"\n",
-            END[1] * 1e6
-        )),
-        ..piston.clone()
-    };
-    for body in &mut held.bodies {
+/// Has the piston of a slit driven by a clamp at a pressure limit.
+fn held(case: &mut CaseText) {
+    let stop = case.stop.take().unwrap_or_default() * 1e6;
+    case.clamp = Some(format!(
+        "closing_speed = \"0.5 m/s\"\nmax_pressure = \"0.3 MPa\"\ntravel = \"5 um\"\ntime_limit = \"{stop} us\"\n"
+    ));
+    for body in &mut case.bodies {
         if body.name == Some("top") {
             *body = body.clone().clamped();
         }
     }
-    let gravity = CaseText {
-        gravity: [0.0, -9.81, 0.0],
-        ..piston.clone()
-    };
-    let table = CaseText {
-        viscosity: Viscosity::Table(PVA_PF.to_vec()),
-        ..piston.clone()
-    };
-    vec![
-        scene("piston", &[TABLE, LOAD], piston),
-        scene("gravity", &[TABLE, LOAD], gravity),
-        scene("viscosity table", &[LOAD], table),
-        scene("pressure limit", &[TABLE], held),
-        scene("free drop", &[TABLE, LOAD], drop),
-    ]
 }
 
-fn drop() -> CaseText {
-    let cell = slit::scene(6, [0.0; 2]).case.cell;
+/// A drop without walls, for a time (s).
+fn drop(stop: f64) -> CaseText {
+    let cell = 2.9e-6;
     let size = 20.0 * cell;
     let [low, high] = [6.0, 14.0].map(|x| x * cell);
     let liquid = Body::liquid([low, low, 0.0], [high, high, cell]);
@@ -106,6 +60,7 @@ fn drop() -> CaseText {
         boundary: ["open", "open", "symmetry"],
         bodies: vec![liquid.moving([0.4, 0.3, 0.0])],
         title: "A drop in free flight.".into(),
+        stop: Some(stop),
         ..CaseText::plane(cell, [size, size])
     }
 }

@@ -16,17 +16,20 @@ type Stage = (&'static str, &'static [&'static str]);
 fn stages(scheme: Scheme) -> &'static [Stage] {
     match scheme {
         Scheme::Explicit => &[
-            (CONTACT, &["Grid::see_bodies", "contact::meeting"]),
+            ("bodies at nodes", &["Grid::see_bodies", "contact::meeting"]),
             ("nodes", &["Block::advance"]),
-            (FILTER, &["halo::gather_filtered", "Block::refine"]),
+            (
+                "velocity filter",
+                &["halo::gather_filtered", "Block::refine"],
+            ),
             ("stress", &["AnyFlow::update"]),
-            (CELL_MEAN, &["cell_mean::share_rate"]),
+            ("cell-mean pressure", &["cell_mean::share_rate"]),
             ("points move", &["collide::move_points"]),
-            (PROJECTION, &["density::project"]),
+            ("density projection", &["density::project"]),
         ],
         Scheme::Implicit => &[
             ("mesh of the gap", &["Implicit::fit_mesh"]),
-            (TABLE, &["Viscosities::of"]),
+            ("viscosity of the shear rate", &["Viscosities::of"]),
             (
                 "assembly",
                 &[
@@ -36,23 +39,20 @@ fn stages(scheme: Scheme) -> &'static [Stage] {
                 ],
             ),
             ("linear solve", &["SaddleSolver::solve"]),
-            (LOAD, &["SaddleSolver::solve_loaded"]),
+            (
+                "solve at the pressure limit",
+                &["SaddleSolver::solve_loaded"],
+            ),
             ("transport", &["transport::transport"]),
         ],
     }
 }
-pub(super) const CONTACT: &str = "bodies at nodes";
-pub(super) const FILTER: &str = "velocity filter";
-pub(super) const CELL_MEAN: &str = "cell-mean pressure";
-pub(super) const PROJECTION: &str = "density projection";
-pub(super) const TABLE: &str = "viscosity of the shear rate";
-pub(super) const LOAD: &str = "solve at the pressure limit";
 
 /// A scene, by one scheme.
 pub(super) struct Scene {
     pub(super) name: &'static str,
     /// Stages that it does without.
-    pub(super) without: &'static [&'static str],
+    pub(super) without: Vec<&'static str>,
     pub(super) method: Method,
     pub(super) case: CaseText,
 }
@@ -66,11 +66,9 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Runs `scenes` of `scheme` in `folder`.
-    ///
-    /// # Errors
-    /// What a run said; that there is no valgrind; that no scene has a stage, because its functions are gone or were inlined.
-    pub(super) fn measure(scheme: Scheme, scenes: Vec<Scene>, folder: &Path) -> Result<Self> {
+    /// Runs the scenes of a scheme in `folder`; an error where none has a stage, whose functions are gone then, or inlined.
+    pub(super) fn measure(scheme: Scheme, folder: &Path) -> Result<Self> {
+        let scenes = super::scenes::of(scheme);
         let counts: Result<Vec<Vec<f64>>> =
             side_by_side(&scenes, |scene| count(scheme, scene, folder));
         let counts = counts?;
@@ -149,4 +147,13 @@ fn count(scheme: Scheme, scene: &Scene, folder: &Path) -> Result<Vec<f64>> {
     };
     let counts = stages(scheme).iter().map(of_stage).chain([total]);
     Ok(counts.map(|count: f64| count / steps / 1e6).collect())
+}
+
+#[test]
+fn what_scenes_do_without_are_stages() {
+    for scheme in Scheme::ALL {
+        let known = |name: &&str| stages(scheme).iter().any(|(stage, _)| stage == name);
+        let scenes = super::scenes::of(scheme);
+        assert!(scenes.iter().flat_map(|s| &s.without).all(known));
+    }
 }

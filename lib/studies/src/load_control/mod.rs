@@ -11,7 +11,7 @@ use crate::method::{Method, Scheme};
 use crate::numbers::{crossing, largest};
 use crate::outputs::Run;
 use crate::study::{Study, side_by_side, write};
-use scenes::{CELL, SHAPES, Shape};
+use scenes::{CELL, Shape, shapes};
 
 /// Pressure limits, Pa.
 const PRESSURES: [f64; 5] = [3e4, 1e5, 3e5, 1e6, 2.5e6];
@@ -65,7 +65,7 @@ impl Course {
             run.columns(["closing_speed_m_s", "max_speed_m_s", "pressure_top_Pa"])?;
         let [end, way] = run.ends(["time_s", "displacement_m"])?;
         let cells = |speed: Vec<f64>| largest(speed.iter().zip(&dt).map(|(v, dt)| v * dt / CELL));
-        let whole = way >= shape.travel * CELL * (1.0 - 1e-6);
+        let whole = way >= shape.way() * (1.0 - 1e-6);
         Ok(Self {
             closed_s: if whole { end } else { f64::INFINITY },
             clamp: cells(speed) / cfl,
@@ -87,9 +87,6 @@ impl Course {
 }
 
 /// The press `shape` at both Courant numbers, run in `folder`.
-///
-/// # Errors
-/// What a run said.
 pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result<Row> {
     let name = format!("{}-{pressure}-{viscosity}", shape.name.replace(' ', "-"));
     let text = shape
@@ -104,7 +101,7 @@ pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result
     };
     let courses = [course(COURANT[0])?, course(COURANT[1])?];
     let [usual, small] = &courses;
-    let way = shape.travel * CELL;
+    let way = shape.way();
     let mut worst = [0.0_f64; 2];
     for left in AT.map(|part| part * way) {
         let fine = crossing(&small.travel, &small.time, way - left).ok_or("it did not close")?;
@@ -123,12 +120,9 @@ pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result
 }
 
 /// The study.
-///
-/// # Errors
-/// What a run or the system said.
 pub fn run(study: &Study) -> Result<bool> {
     let mut wanted = Vec::new();
-    for shape in SHAPES.into_iter().filter(|shape| study.wants(shape.name)) {
+    for shape in shapes().into_iter().filter(|shape| study.wants(shape.name)) {
         for pressure in PRESSURES {
             wanted.extend(VISCOSITIES.map(|viscosity| (shape, pressure, viscosity)));
         }

@@ -1,12 +1,10 @@
 //! `load-control.csv` and `load-control.md`.
 
-use std::fmt::Write;
-
-use super::scenes::{SHAPES, Shape};
+use super::scenes::{Shape, shapes};
 use super::{COURANT, Course, Row, out_of_order};
 use crate::Result;
 use crate::numbers::{largest, mean};
-use crate::study::{Study, table};
+use crate::study::{Study, filled, table};
 
 /// Writes the table and the page.
 pub(super) fn write(study: &Study, rows: &[Row]) -> Result<()> {
@@ -55,17 +53,6 @@ pub fn sound(rows: &[Row]) -> bool {
 }
 
 fn page(rows: &[Row], head: &str) -> String {
-    let mut out = format!(
-        "# The clamp at its pressure limit, implicit scheme\n\n{head}\n\
-         Five pressure limits by five viscosities by eight scenes, at Courant numbers {} and {}.\n\
-         Way: difference of the way still to go from that at the small Courant number, when half and\n\
-         three quarters of it are gone there, relative. Plates: the same relative to the distance between the\n\
-         plates. Goal: 10 %, of the former where the plate touches the liquid from the start, of the latter\n\
-         where it first crosses air, a film of which thinner than half a cell is not resolved. Clamp: most cells it crossed in a step over the\n\
-         Courant number. Points: most cells that a material point crossed in a step (jets through\n\
-         holes of a voxel may cross 1.5). Pressure: highest over the limit.\n\n",
-        COURANT[0], COURANT[1]
-    );
     let line = |shape: Shape| {
         let own: Vec<&Row> = rows.iter().filter(|r| r.shape.name == shape.name).collect();
         if own.is_empty() {
@@ -89,14 +76,17 @@ fn page(rows: &[Row], head: &str) -> String {
         ))
     };
     let heads = "| scene | runs | way, worst | mean | plates, worst | closing time, worst | clamp | points | pressure | CPU s |";
-    out += &table(heads, SHAPES.into_iter().filter_map(line));
     let open = rows.iter().flat_map(|r| &r.courses);
     let open = open.filter(|c| c.closed_s.is_infinite()).count();
-    let _ = writeln!(
-        out,
-        "\nRuns that did not close within their time limit: {open}. Pairs in which the higher pressure or the\n\
-         thinner liquid closes later: {}.",
-        out_of_order(rows)
-    );
-    out
+    let values = [
+        ("head", head),
+        ("cfl", &format!("{} and {}", COURANT[0], COURANT[1])),
+        (
+            "table",
+            &table(heads, shapes().into_iter().filter_map(line)),
+        ),
+        ("open", &open.to_string()),
+        ("out_of_order", &out_of_order(rows).to_string()),
+    ];
+    filled(include_str!("page.txt"), &values)
 }

@@ -31,7 +31,7 @@ const CELLS: u32 = 6;
 /// Methods: the paper's two, APIC, each with every option; the implicit scheme beside them.
 fn methods() -> Vec<Method> {
     let mut list = Vec::new();
-    for plain in [Method::flip(), Method::xpic(5), Method::apic()] {
+    for plain in ["FLIP", "XPIC(5)", "APIC"].map(Method::named) {
         list.push(plain.clone());
         list.extend(OPTIONS.map(|(name, keys)| plain.with(name, keys)));
     }
@@ -50,9 +50,6 @@ fn scenes() -> Vec<Scene> {
 }
 
 /// The study, on the scenes so named.
-///
-/// # Errors
-/// The system's reason.
 pub fn run(study: &Study) -> Result<bool> {
     let mut scenes = scenes();
     scenes.retain(|s| study.wants(&s.name));
@@ -62,21 +59,18 @@ pub fn run(study: &Study) -> Result<bool> {
         let short = scene.name.starts_with("squeeze") || scene.name.starts_with("acoustic");
         let mut methods = methods();
         methods.retain(|method| method.scheme == Scheme::Explicit || !short);
-        jobs.extend(methods.into_iter().map(|method| Job { scene, method }));
+        jobs.extend(methods.into_iter().map(|method| (scene, method)));
     }
     let outcomes = run_all(&jobs, &study.folder());
     let columns = "case,method,quantity,error,steps,cpu_s,said";
     let rows = outcomes.iter().flat_map(fields);
     study.write_csv("explicit-options.csv", columns, rows)?;
     let head = study.head(outcomes.iter().map(|o| o.cpu_s));
-    let page = PAGE.replace("{head}", &head);
-    let page = page.replace("{table}", &table(&scenes, &outcomes));
+    let values = [("head", &*head), ("table", &table(&scenes, &outcomes))];
+    let page = study::filled(include_str!("page.txt"), &values);
     study.write("explicit-options.md", page)?;
     Ok(true)
 }
-
-/// The page around the table.
-const PAGE: &str = include_str!("page.txt");
 
 /// The errors of a run, or why there are none.
 fn fields(o: &Outcome) -> Vec<Vec<String>> {

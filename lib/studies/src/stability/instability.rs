@@ -8,14 +8,13 @@ use std::time::Duration;
 
 use particle_file::{Kind, ParticleFile};
 
-use super::scenes::{Press, Scene, press, torn};
+use super::scenes::{self, Scene, torn};
 use crate::Result;
+use crate::lines::Values;
 use crate::method::Method;
 use crate::outputs::{Run, tool};
 use crate::study::{said, table, terminate, write};
 
-/// Cells along z: enough points that a signal comes before the instability.
-const DEPTH: u32 = 32;
 /// Attempts to stop a run in time, on a machine busy with other work.
 const ATTEMPTS: u32 = 5;
 
@@ -56,28 +55,28 @@ pub struct Row {
 /// All trials: the press beyond its viscous limit, stopped early and late, and a liquid that
 /// flies apart at any step.
 pub fn trials() -> Vec<Trial> {
+    // Enough cells along z that a signal comes before the instability.
+    let line = Values::all("press depth=32");
+    let press = scenes::of(&line[0]).expect("a scene");
     let pressed = |method: Method, stop_after| Trial {
         scene: "press",
         case: Scene {
             duration: 0.5e-6,
-            ..press(Press {
-                depth: DEPTH,
-                ..Press::default()
-            })
+            ..press.clone()
         },
         method,
         cfl: 1.2,
         then: 0.5,
         stop_after,
     };
-    let cavitating = Method::flip().setting("adhesive.cavitation_pressure=\"0.1 MPa\"");
+    let cavitating = Method::named("FLIP").setting("adhesive.cavitation_pressure=\"0.1 MPa\"");
     vec![
-        pressed(Method::flip(), 50),
-        pressed(Method::flip(), 150),
-        pressed(Method::xpic(5), 150),
+        pressed(Method::named("FLIP"), 50),
+        pressed(Method::named("FLIP"), 150),
+        pressed(Method::named("XPIC(5)"), 150),
         Trial {
             scene: "torn apart, 150 m/s",
-            case: torn(150.0).deep(2 * DEPTH),
+            case: torn(150.0).deep(64),
             method: cavitating.called("FLIP, cavitation"),
             cfl: 0.5,
             then: 0.1,
@@ -88,9 +87,6 @@ pub fn trials() -> Vec<Trial> {
 
 impl Trial {
     /// Runs it below `folder`.
-    ///
-    /// # Errors
-    /// What is not as it must be.
     pub fn run(&self, folder: &Path) -> Result<Row> {
         let run = Run {
             folder: folder.join("run"),
@@ -186,9 +182,6 @@ fn last_step(run: &Run) -> Result<u64> {
 
 /// How many particle files the run folder holds, all whole and without a value that is not a number;
 /// the history likewise.
-///
-/// # Errors
-/// The file that is not so.
 fn sound_files(run: &Run) -> Result<usize> {
     let mut paths = vec![run.folder.join("checkpoint.mpts")];
     paths.push(run.folder.join("final.mpts"));
@@ -226,8 +219,8 @@ fn sound(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The rows as a section of the page.
-pub(super) fn section(rows: &[Result<Row>]) -> String {
+/// The rows as a table of the page.
+pub(super) fn lines(rows: &[Result<Row>]) -> String {
     let line = |row: &Result<Row>| match row {
         Ok(row) => {
             let then = match &row.then {
@@ -244,15 +237,5 @@ pub(super) fn section(rows: &[Result<Row>]) -> String {
     };
     let heads =
         "| run | CFL | checkpoint after step | last step | files left | said | then CFL | and it |";
-    format!("{SECTION}{}", table(heads, rows.iter().map(line)))
+    table(heads, rows.iter().map(line))
 }
-
-const SECTION: &str = "
-## checkpoint before an instability
-
-Runs told to stop (exit 75), resumed until they become unstable (exit 1), and resumed from the same
-checkpoint at a smaller Courant number, which is the one key of a case that may change on `--resume`.
-Checked: the checkpoint is left as it was; every particle file left is whole, and no number in them or
-in the history is a NaN or infinite.
-
-";

@@ -2,21 +2,17 @@
 //! Whatever a case asks for, the automatic time step keeps it stable or the run refuses it or
 //! stops with a reason; nothing ends in NaN silently.
 
-mod extremes;
 pub mod instability;
-pub(crate) mod plan;
+mod plan;
 mod report;
-mod scenes;
+pub(crate) mod scenes;
 mod trial;
 
 use crate::Result;
 use crate::study::{Study, side_by_side};
-use trial::{Row, Trial, Verdict};
+use trial::{ENDS, Row, Trial};
 
 /// The study, on what is varied or has a value so named.
-///
-/// # Errors
-/// What keeps a trial from being made.
 pub fn run(study: &Study) -> Result<bool> {
     let mut trials = plan::trials();
     trials.retain(|t| study.wants(t.varied) || study.wants(&t.value));
@@ -29,7 +25,7 @@ pub fn run(study: &Study) -> Result<bool> {
         .filter(|(_, trial)| study.wants(trial.scene))
         .map(|(i, trial)| trial.run(&study.folder().join(format!("checkpoint-{i}"))))
         .collect();
-    report::write(study, &rows, &instability::section(&unstable))?;
-    let broken = |row: &Row| matches!(row.verdict, Verdict::Broken(_));
+    report::write(study, &rows, &instability::lines(&unstable))?;
+    let broken = |row: &Row| row.verdict == ENDS[4];
     Ok(!rows.iter().any(broken) && unstable.iter().all(Result::is_ok))
 }

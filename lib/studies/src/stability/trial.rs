@@ -30,27 +30,17 @@ pub(super) struct Trial {
     pub(super) cfl: f64,
 }
 
-/// How a trial ended.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Verdict {
-    /// It ended and its energy is that of the flow.
-    Stable,
-    /// It ended, but most of its kinetic energy is noise.
-    Noisy,
-    /// Not accepted: the sentence.
-    Refused(String),
-    /// Stopped with exit status 1: the sentence.
-    Stopped(String),
-    /// Anything else: a fault of the program.
-    Broken(String),
-}
+/// How a trial ended: its energy is that of the flow, or mostly noise; not accepted; with exit status 1; or in any other way,
+/// a fault of the program.
+pub(super) const ENDS: [&str; 5] = ["stable", "noisy", "refused", "stopped", "BROKEN"];
 
 /// A row of the table.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     pub(super) trial: Trial,
-    /// How it ended.
-    pub(super) verdict: Verdict,
+    /// How it ended, one of [`ENDS`], and what was said.
+    pub(super) verdict: &'static str,
+    pub(super) sentence: String,
     /// What was computed of the scene's motion, 1 for all of it.
     pub(super) part: f64,
     /// Steps and CPU seconds; NaN if it did not end.
@@ -101,9 +91,6 @@ impl Trial {
     }
 
     /// Runs it, with case and run folder below `folder`.
-    ///
-    /// # Errors
-    /// When its case cannot be written.
     pub(super) fn run(self, folder: &Path) -> Result<Row> {
         let whole = self.scene.duration;
         let seconds = match self.method.scheme {
@@ -127,7 +114,8 @@ impl Trial {
             last.strip_prefix("mpm-run: ").unwrap_or(last).to_owned()
         };
         let mut row = Row {
-            verdict: Verdict::Stable,
+            verdict: "",
+            sentence: String::new(),
             part,
             steps: f64::NAN,
             cpu_s: f64::NAN,
@@ -142,14 +130,16 @@ impl Trial {
             trial: self,
         };
         let measured = row.measure(&Run { folder });
-        row.verdict = match (ended.map(|output| output.status.code()), measured) {
-            (Ok(Some(0)), Ok(())) if row.energy > NOISY => Verdict::Noisy,
-            (Ok(Some(0)), Ok(())) => Verdict::Stable,
-            (Ok(Some(0)), Err(said)) => Verdict::Broken(format!("ended, but {said}")),
-            (Ok(Some(1)), _) => Verdict::Stopped(sentence()),
-            (Ok(Some(2)), _) => Verdict::Refused(sentence()),
-            (Ok(code), _) => Verdict::Broken(format!("exit {code:?}: {}", sentence())),
-            (Err(said), _) => Verdict::Broken(said.to_string()),
+        let [stable, noisy, refused, stopped, broken] = ENDS;
+        let code = ended.map(|output| output.status.code());
+        (row.verdict, row.sentence) = match (code, measured) {
+            (Ok(Some(0)), Ok(())) if row.energy > NOISY => (noisy, String::new()),
+            (Ok(Some(0)), Ok(())) => (stable, String::new()),
+            (Ok(Some(0)), Err(said)) => (broken, format!("ended, but {said}")),
+            (Ok(Some(1)), _) => (stopped, sentence()),
+            (Ok(Some(2)), _) => (refused, sentence()),
+            (Ok(code), _) => (broken, format!("exit {code:?}: {}", sentence())),
+            (Err(said), _) => (broken, said.to_string()),
         };
         row
     }

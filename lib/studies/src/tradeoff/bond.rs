@@ -22,9 +22,6 @@ struct Closed {
 }
 
 /// Runs the settings that ask for it.
-///
-/// # Errors
-/// What a tool said when there is no specimen or no reference.
 pub(super) fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>> {
     let bond = folder.join("bond.mpts");
     synthetic_bond(&bond, "24x72x24", "11.6 um")?;

@@ -19,9 +19,6 @@ use settings::Setting;
 const DOUBLE: &str = "target/double/release/mpm-run";
 
 /// The study, with the settings so named.
-///
-/// # Errors
-/// What a tool said without which there is no bond line or no reference for it, or the system.
 pub fn run(study: &Study) -> Result<bool> {
     let mut settings = settings::all(Path::new(DOUBLE));
     settings.retain(|setting| study.wants(&setting.method.label));
@@ -61,15 +58,17 @@ impl Flow {
         Flow::BondWp,
     ];
 
-    /// Name in tables.
+    /// Name in tables, and the beginning of the name of the quantity whose error counts.
+    const NAMES: [(&str, &str); 5] = [
+        ("piston into slit", "piston force"),
+        ("channel", "mean velocity"),
+        ("incline", "rms profile"),
+        ("bond line, pressure", ""),
+        ("bond line, WP", ""),
+    ];
+
     fn name(self) -> &'static str {
-        match self {
-            Flow::Slit => "piston into slit",
-            Flow::Channel => "channel",
-            Flow::Incline => "incline",
-            Flow::BondPressure => "bond line, pressure",
-            Flow::BondWp => "bond line, WP",
-        }
+        Self::NAMES[self as usize].0
     }
 
     /// Scenes of this flow with `n` cells across the lumen for a scheme; none where it is not one of
@@ -99,16 +98,6 @@ impl Flow {
             Flow::BondPressure | Flow::BondWp => Vec::new(),
         }
     }
-
-    /// Beginning of the name of the quantity whose error counts.
-    fn quantity(self) -> &'static str {
-        match self {
-            Flow::Slit => "piston force",
-            Flow::Channel => "mean velocity",
-            Flow::Incline => "rms profile",
-            Flow::BondPressure | Flow::BondWp => "",
-        }
-    }
 }
 
 /// Error and cost of a setting on a flow.
@@ -136,11 +125,7 @@ fn boxes(settings: &[Setting], folder: &Path) -> (Vec<Row>, Vec<Outcome>) {
     }
     let mut jobs: Vec<Job> = Vec::new();
     for (_, setting, scenes) in &parts {
-        let method = &setting.method;
-        jobs.extend(scenes.iter().map(|scene| Job {
-            scene,
-            method: method.clone(),
-        }));
+        jobs.extend(scenes.iter().map(|scene| (scene, setting.method.clone())));
     }
     let outcomes = run_all(&jobs, folder);
     let mut rest = &outcomes[..];
@@ -159,7 +144,7 @@ fn row(flow: Flow, setting: &Setting, outcomes: &[Outcome]) -> Row {
         .iter()
         .filter_map(|o| o.measured.as_ref().ok())
         .flatten();
-    let of_flow = all.filter(|m| m.what.starts_with(flow.quantity()));
+    let of_flow = all.filter(|m| m.what.starts_with(Flow::NAMES[flow as usize].1));
     let error = rms(of_flow.map(|m| m.error));
     let cpu: f64 = outcomes.iter().map(|o| o.cpu_s).sum();
     Row {

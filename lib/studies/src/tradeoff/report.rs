@@ -8,7 +8,7 @@ use figures::{Mark, Plot};
 use super::{Flow, Row};
 use crate::Result;
 use crate::method::{Method, Scheme};
-use crate::study::{PAGE, Study, table};
+use crate::study::{PAGE, Study, filled, table};
 use crate::verification::report::percent;
 
 /// Where `mpm-run --explain` finds what it quotes.
@@ -71,29 +71,19 @@ fn plot(rows: &[Row], flow: Flow) -> Plot {
     plot
 }
 
-const HEAD: &str = "Error is the root mean square of the relative errors of a flow: **piston \
-into slit** piston force at one and two filled widths, walls on the nodes and a quarter cell off, half a cell of the implicit scheme, \
-against finite elements behind a tracked front (lib/studies/reference); **channel** mean \
-velocity, walls on the nodes, a quarter (explicit) and half a cell off, against plane Poiseuille; **incline** profile over v_max, floor on the nodes, against \
-paper Eq. 5 (both by the implicit scheme for ten and a hundred times as long, since its step is as long as those runs); **bond line** a synthetic specimen of 24x72x24 voxels closed at 1 m/s: mean clamp \
-pressure over the second half and WP when closed, against the implicit scheme with cells of half a \
-voxel. Cells are those across a lumen of 17.4 um (6 are two voxels each, 12 one). CPU time is that \
-of one run on one thread, to 0.01 s. The explicit scheme is f32 with f64 sums over \
-the run, its rows *f64* by the build with the feature `double`; the implicit scheme is f64 with f32 \
-coefficients. \
-**Bold**: nothing cheaper is as accurate (the Pareto front). All settings: [tradeoff.csv](tradeoff.csv).";
-
 fn page(rows: &[Row], head: &str) -> String {
-    let mut out = format!("# Error against run time\n\n{head}\n{HEAD}\n\n");
-    out.push_str("![Piston into slit](tradeoff-slit.png)\n![Bond line](tradeoff-bond.png)\n\n");
-    advice(&mut out, rows);
-    front(&mut out, rows);
-    failed(&mut out, rows);
-    out
+    let values = [
+        ("head", head),
+        ("cheapest", &*cheapest(rows)),
+        ("front", &front(rows)),
+    ];
+    let mut page = filled(include_str!("page.txt"), &values);
+    failed(&mut page, rows);
+    page
 }
 
 /// For each accuracy the cheapest setting of the flows that count, from the rows themselves.
-fn advice(out: &mut String, rows: &[Row]) {
+fn cheapest(rows: &[Row]) -> String {
     let mut lines = Vec::new();
     for flow in [Flow::Slit, Flow::Channel, Flow::BondPressure, Flow::BondWp] {
         for goal in [0.3, 0.1, 0.05, 0.02] {
@@ -113,36 +103,11 @@ fn advice(out: &mut String, rows: &[Row]) {
         }
     }
     let heads = "| flow | error | cheapest | CPU (s) | cheapest explicit | CPU (s) |";
-    let _ = writeln!(
-        out,
-        "## Which settings for which accuracy\n\nThe cheapest setting measured that reaches an \
-         error, and the cheapest explicit one:\n\n{}\n{ADVICE}",
-        table(heads, lines)
-    );
+    table(heads, lines)
 }
 
-/// What the tables say, in words.
-const ADVICE: &str = "\
-- **Clamp pressure and filling**: the implicit scheme as it is by default, two voxels a cell (6 cells in a 17.4 um lumen), Courant
-  number 1 and tolerance 1e-3. One voxel a cell (12) takes ten times the time, and is for narrow lumens: the small bond line here
-  has pore throats of few cells. A smaller tolerance gains nothing.
-- **The explicit scheme as in the paper** gives WP and the course of a flow, not pressures: each point's own J locks the
-  liquid, and the walls lie where the nodes are. Finer cells help slowly. PIC damps viscous flow away; the other updates
-  differ less from each other than from the truth.
-- **Explicit, when it must be**: `integrator.pressure = \"cell-mean\"` takes most of the error of filling away at about the same
-  cost, with XPIC(5) the most in the slit; in the bond line it needs the density projection and FLIP. Channels, whose error is
-  the place of the walls, gain nothing. `cfl = 0.7` saves a third of the time and costs nothing here. A shorter contact
-  separation suits a piston but lets films slip off their walls.
-- **Bulk modulus**: the viscous limit sets the explicit step of PF, so a lower K saves nothing. At 1e8 Pa the liquid itself
-  gives way (the implicit scheme shows that alone: -14 %), which happens to cancel part of XPIC(5)'s error.
-- **Precision**: the explicit scheme's errors are not rounding. In double precision the channel and the incline come out
-  the same; the bond line within 0.5 % and the slit within 3 % of the error, because rounding grows until points take other
-  places. It costs 1.2 to 1.9 times the CPU time. What f32 does leave is a drift of liquid that moves with its walls, without
-  friction up to 2e-5 of the speed in twelve thousand steps (1e-16 in double precision).
-";
-
 /// The settings that nothing cheaper matches on some flow, and those as a case has them by default.
-fn front(out: &mut String, rows: &[Row]) {
+fn front(rows: &[Row]) -> String {
     let line = |row: &Row| {
         let label = &row.setting.method.label;
         let own = || rows.iter().filter(|r| r.setting.method.label == *label);
@@ -152,9 +117,8 @@ fn front(out: &mut String, rows: &[Row]) {
         shown.then(|| format!("| {label} | {} |", cells.join(" | ")))
     };
     let heads = format!("| setting | {} |", Flow::ALL.map(Flow::name).join(" | "));
-    *out += "## Settings on the front, and plain ones\n\nError, CPU seconds.\n\n";
     let slits = rows.iter().filter(|r| r.flow == Flow::Slit);
-    *out += &table(&heads, slits.filter_map(line));
+    table(&heads, slits.filter_map(line))
 }
 
 fn failed(out: &mut String, rows: &[Row]) {

@@ -1,6 +1,6 @@
 //! Filling a slit whose end is closed: the air in it is compressed, and holds the liquid where Boyle's law says.
 
-use super::{LUMEN, Measured, Scene, slit, washburn};
+use super::{LUMEN, Measured, Scene, slit};
 use crate::case_text::{Body, CaseText, PF};
 use crate::numbers::worst;
 
@@ -25,7 +25,7 @@ pub fn scene(n: u32, leak_time: Option<f64>) -> Scene {
     });
     let mut case = CaseText {
         title: "A slit with a closed end filled at constant pressure.\nAgainst Boyle's law and Washburn's with entrance.".into(),
-        clamp: Some(washburn::held(h, PRESSURE, until * UNIT)),
+        clamp: Some(slit::held(h, PRESSURE, until * UNIT)),
         air: Some(format!("pressure = \"{OUTSIDE} Pa\"\n{leak}")),
         history_every: UNIT / 100.0,
         ..slit::reservoir(h, places, 4.0 * LUMEN, Body::clamped)
@@ -43,7 +43,7 @@ pub fn scene(n: u32, leak_time: Option<f64>) -> Scene {
         let mut column = Column {
             filled: filled[first],
             air: LENGTH,
-            entrance: washburn::entrance(n),
+            entrance: slit::entrance(n),
             leak_time,
         };
         let errors = (first + 1..times.len()).map(|i| {

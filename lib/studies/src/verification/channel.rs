@@ -3,8 +3,7 @@
 
 use super::{LUMEN, Measured, Scene, mean_against, pressing};
 use crate::case_text::{Body, CaseText, PF, STICK, partial_slip};
-use crate::closed_forms::channel;
-use crate::numbers::worst;
+use crate::numbers::{line_at_zero, worst};
 
 /// Body force per mass, m/s2: a mean velocity near 0.02 m/s.
 const G: f64 = 2.3e5;
@@ -40,7 +39,9 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
     let name = format!("channel-n{n}-off{offset}{walls}");
     Scene::new(name, "plane Poiseuille", case, move |run| {
         let slip = slip.unwrap_or(0.0) * LUMEN;
-        let exact = |y: f64| channel(y, LUMEN, slip, G, PF[0], PF[2]);
+        // Plane Poiseuille flow with Navier slip.
+        let unit = PF[0] * G / (2.0 * PF[2]);
+        let exact = |y: f64| unit * (y * (LUMEN - y) + LUMEN * slip);
         let points = run.points()?;
         let fastest = exact(0.5 * LUMEN);
         let off = points.iter().map(|p| p.velocity[0] - exact(p.at[1] - low));
@@ -49,5 +50,51 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
             mean_against(run, low, exact)?,
             Measured::absolute("a point over the fastest, worst", worst),
         ])
+    })
+}
+
+/// Speed of the upper wall of a Couette flow, m/s.
+const WALL: f64 = 0.5;
+
+/// Couette flow with partial slip: the speed of the liquid at the walls. A gap of `n` cells, lower wall `offset` cells off the nodes, influence length `slip` widths.
+pub fn couette_scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
+    let mut case = CaseText {
+        title: format!(
+            "Couette flow with partial slip, gap of {n} cells, walls {offset} cell off the nodes.\nAgainst v l/(H + 2 l) at the resting wall."
+        ),
+        gravity: [0.0; 3],
+        ..scene(n, offset, Some(slip), until).case
+    };
+    let (low, area) = (case.bodies[0].max[1], case.size[0] * case.cell);
+    case.bodies[0] = case.bodies[0].clone().named("bottom");
+    let upper = &mut case.bodies[1];
+    (upper.min[0], upper.max[0]) = (-1e-3, 1e-3);
+    *upper = upper.clone().moving([WALL, 0.0, 0.0]);
+    let name = format!("couette-n{n}-off{offset}-slip{slip}");
+    Scene::new(name, "Couette with Navier slip", case, move |run| {
+        // Least-squares line through the middle half, read off at the resting wall: the
+        // profile is straight, and what the wall does shows in it without the kernels of
+        // the wall's own cells.
+        let points = run.points()?;
+        let points: Vec<_> = (points.iter().map(|p| (p.at[1] - low, p.velocity[0])))
+            .filter(|(y, _)| (0.25 * LUMEN..=0.75 * LUMEN).contains(y))
+            .collect();
+        let length = slip * LUMEN;
+        let exact = WALL * length / (LUMEN + 2.0 * length);
+        // Power over the wall's speed and area, which is exact where the law of the walls counts.
+        let [power] = run.ends(["viscous_power_W"])?;
+        let mut list = Vec::new();
+        // Three cells may have one row of points there.
+        let apart = |(y, _): &(f64, f64)| (y - points[0].0).abs() > 0.01 * LUMEN;
+        if points.iter().any(apart) {
+            let found = line_at_zero(&points);
+            list.push(Measured::relative("slip velocity", found, exact));
+        }
+        list.push(Measured::relative(
+            "stress, from the power dissipated",
+            power / (WALL * area),
+            PF[2] * exact / length,
+        ));
+        Ok(list)
     })
 }

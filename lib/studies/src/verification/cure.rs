@@ -3,7 +3,7 @@
 
 use super::lumen::Section;
 use super::piston::{self, Drive};
-use super::{LUMEN, Measured, Scene, slit, washburn};
+use super::{LUMEN, Measured, Scene, slit};
 use crate::case_text::PF;
 use crate::numbers::worst;
 
@@ -15,7 +15,7 @@ const SET: f64 = 1e6;
 /// How the viscosity grows by a law with one time, s: t_gel, or that of the last point.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
-    name: &'static str,
+    pub(super) name: &'static str,
     /// The time for an integral of 1/factor of so much, s.
     time: fn(f64) -> f64,
     /// Integral of 1/factor by that time up to another, s.
@@ -51,11 +51,11 @@ pub fn slit_scene(n: u32, growth: Growth) -> Scene {
         growth,
         limit: PRESSURE * 4.0 * LUMEN / slit::domain(h),
         unit: 12.0 * PF[2] / PRESSURE,
-        entrance: washburn::entrance(n),
+        entrance: slit::entrance(n),
         goal: 4.5,
         travel: 0.25,
     };
-    filling.of(washburn::scene(n, 0.0))
+    filling.of(slit::filled_scene(n, 0.0))
 }
 
 /// A tube of `n` cells that fills to 2.5 of its diameters.

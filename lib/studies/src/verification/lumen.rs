@@ -57,64 +57,17 @@ impl Section {
         }
     }
 
-    /// [`Self::resistance`] of the lumen's own staircase walls, from central differences with
-    /// the numbers of squares per voxel edge in [`FINE`].
+    /// [`Self::resistance`] of the lumen's own staircase walls, by finite differences (lib/studies/reference/staircase.py).
+    ///
+    /// # Panics
+    /// Without a row of the table.
     pub fn staircase_resistance(self, n: u32) -> f64 {
-        let flows = FINE.map(|(fine, weight)| weight / self.differences(n, fine));
-        1.0 / flows.iter().sum::<f64>()
-    }
-
-    /// The same with `fine` squares per voxel edge on a quarter, by successive over-relaxation.
-    fn differences(self, n: u32, fine: usize) -> f64 {
-        let rows = self.rows(n);
-        let voxels = 2.0 * rows.len() as f64;
-        let m = rows.len() * fine;
-        let wide: Vec<usize> = (0..m)
-            .map(|j| (rows[j / fine] * voxels).round() as usize * fine)
-            .collect();
-        let relaxation = 2.0 / (1.0 + std::f64::consts::FRAC_PI_2 / m as f64);
-        let mut u = vec![0.0; m * m];
-        // Change of a pass over the sum of all values.
-        let (mut change, mut sum) = (1.0, 0.0);
-        while change > 1e-9 * sum {
-            (change, sum) = (0.0, 0.0);
-            for j in 0..m {
-                for i in 0..wide[j] {
-                    // A mirror at the axes, a wall half a square beyond the last open one.
-                    let at = |i: usize, j: usize| {
-                        let open = j < m && i < wide[j];
-                        open.then(|| u[j * m + i])
-                    };
-                    let own = u[j * m + i];
-                    let around = [
-                        at(i.wrapping_sub(1).min(i), j),
-                        at(i + 1, j),
-                        at(i, j.wrapping_sub(1).min(j)),
-                        at(i, j + 1),
-                    ];
-                    let (mut weight, mut flow) = (0.0, 1.0);
-                    for neighbour in around {
-                        weight += if neighbour.is_some() { 1.0 } else { 2.0 };
-                        flow += neighbour.unwrap_or(0.0);
-                    }
-                    let step = relaxation * (flow / weight - own);
-                    u[j * m + i] = own + step;
-                    change += step.abs();
-                    sum += own.abs();
-                }
-            }
-        }
-        // d = 2 m squares; mean velocity of unit gradient over unit viscosity in squares.
-        let area: usize = wide.iter().sum();
-        let mean = u.iter().sum::<f64>() / area as f64;
-        (2.0 * m as f64).powi(2) / mean
+        let row = format!("{},{n},", self.name());
+        let mut lines = include_str!("../../reference/staircase.csv").lines();
+        let found = lines.find_map(|line| line.strip_prefix(&row)?.parse().ok());
+        found.unwrap_or_else(|| panic!("lib/studies/reference/staircase.csv has no row {row}"))
     }
 }
-
-/// Squares per voxel edge of the finite differences, and the weights that take errors of the powers
-/// 4/3 (the velocity beside a re-entrant edge is r^(2/3)) and 2 out of their mean velocities: four squares
-/// alone are 2.5 % too fast with 6 voxels across a tube and 1.3 % with 12.
-const FINE: [(usize, f64); 3] = [(2, 1.40724), (3, -6.71364), (4, 6.30640)];
 
 /// A rectangle of a cross-section by its corners (across, up) from the lumen's axis, m.
 #[derive(Clone, Copy, Debug)]

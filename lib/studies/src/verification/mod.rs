@@ -1,37 +1,31 @@
 //! The verification scenes: for each a case text and a measure of its error.
 
-pub mod acoustic;
-pub mod air;
+pub(crate) mod acoustic;
+pub(crate) mod air;
 mod catalogue;
-pub mod channel;
-pub mod clamp;
-pub mod column;
-pub mod couette;
-pub mod cure;
-pub mod disc;
-pub mod drop;
-pub mod duct;
-pub mod galilean;
+pub(crate) mod channel;
+pub(crate) mod clamp;
+pub(crate) mod cure;
+pub(crate) mod duct;
+pub(crate) mod galilean;
 mod goals;
 mod grain;
-pub mod incline;
-pub mod jurin;
-pub mod laws;
+pub(crate) mod incline;
+pub(crate) mod laws;
 pub mod lumen;
 pub mod piston;
 mod plots;
 pub(crate) mod report;
-pub mod sealed;
+pub(crate) mod sealed;
 pub mod slit;
 mod spheres;
-pub mod squeeze;
-pub mod stefan;
-pub mod tait;
-pub mod taylor_green;
-mod washburn;
-pub mod water;
+pub(crate) mod squeeze;
+pub(crate) mod stefan;
+pub(crate) mod tait;
+pub(crate) mod taylor_green;
+pub(crate) mod water;
 mod water_front;
-pub mod wicking;
+pub(crate) mod wicking;
 
 use crate::Result;
 use crate::job::{Job, run_all};
@@ -39,18 +33,15 @@ pub use crate::job::{Measured, Scene};
 use crate::numbers::mean;
 use crate::outputs::Run;
 use crate::study::Study;
+pub use catalogue::{methods, scenes};
 
 /// The study, on the scenes so named; whether all runs ended.
-///
-/// # Errors
-/// The system's reason.
 pub fn run(study: &Study) -> Result<bool> {
     let mut entries = catalogue::all();
     entries.retain(|(scene, _)| study.wants(&scene.name));
     let mut jobs: Vec<Job> = Vec::new();
     for (scene, methods) in &entries {
-        let methods = methods.iter().cloned();
-        jobs.extend(methods.map(|method| Job { scene, method }));
+        jobs.extend(methods.iter().map(|method| (scene, method.clone())));
     }
     let outcomes = run_all(&jobs, &study.folder());
     report::write(study, &outcomes)?;

@@ -7,7 +7,7 @@ use super::{Measured, Scene};
 use crate::Result;
 use crate::job::Outcome;
 use crate::numbers::worst;
-use crate::study::{Study, distinct, table};
+use crate::study::{Study, distinct, filled, table};
 
 /// Order of the methods in tables.
 const COLUMNS: [&str; 9] = [
@@ -76,16 +76,7 @@ fn order(o: &Outcome, m: &Measured, outcomes: &[Outcome]) -> Option<f64> {
 }
 
 fn page(head: &str, outcomes: &[Outcome]) -> String {
-    let mut out = format!("# Verification\n\n{head}\n");
-    out.push_str(
-        "Every case is written to `out/verify/cases/CASE-SCHEME.toml` (`make verify ONLY=CASE` writes and \
-         runs one); updates other than FLIP are `--set` on it. Errors are relative, in per cent of the reference, \
-         unless the quantity says otherwise; n is cells across the lumen, off the offset of the walls from \
-         the nodes in cells. Below stands the worst error of each family by each method, with the rest of its case's name and, where the error keeps its sign, the order observed from half as many cells; all cases are in [verification.csv](verification.csv). Implicit runs \
-         solve to 1e-4; those from rest to a steady flow take short steps (column `set`), because \
-         at the usual Courant number the first step is as long as the run. The explicit scheme is the paper's, with none of its options.\n\n",
-    );
-    goals(&mut out, outcomes);
+    let mut families = String::new();
     for line in FAMILIES.lines() {
         let (family, text) = line.split_once(" | ").unwrap_or((line, ""));
         let prefix = format!("{family}-");
@@ -93,15 +84,20 @@ fn page(head: &str, outcomes: &[Outcome]) -> String {
         let of_family: Vec<&Outcome> = outcomes.iter().filter(of).collect();
         if !of_family.is_empty() {
             let text = text.replacen(" | ", "\n\n", 1).replace("\\n", "\n");
-            let _ = writeln!(out, "## {text}\n");
-            family_table(&mut out, &of_family, outcomes);
+            let _ = writeln!(families, "## {text}\n");
+            family_table(&mut families, &of_family, outcomes);
         }
     }
-    out
+    let values = [
+        ("head", head),
+        ("goals", &*goals(outcomes)),
+        ("families", &families),
+    ];
+    filled(include_str!("page.txt"), &values)
 }
 
 /// Goals with the worst error found.
-fn goals(out: &mut String, outcomes: &[Outcome]) {
+fn goals(outcomes: &[Outcome]) -> String {
     let line = |goal: Goal| {
         let worst = worst_of(&goal, outcomes)?;
         let reached = match goal.why {
@@ -117,8 +113,7 @@ fn goals(out: &mut String, outcomes: &[Outcome]) {
         ))
     };
     let heads = "| case | method | quantity | goal | worst | |";
-    let lines = table(heads, goals::goals().filter_map(line));
-    let _ = writeln!(out, "## Goals\n\n{lines}");
+    table(heads, goals::goals().into_iter().filter_map(line))
 }
 
 fn worst_of(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {

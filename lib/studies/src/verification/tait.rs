@@ -1,8 +1,7 @@
-//! Compression of a closed box of liquid by a piston: pressure against paper Eq. 1.
+//! Columns of liquid without friction: compressed by a piston, against paper Eq. 1, and at rest under a body force.
 
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, PF};
-use crate::closed_forms::tait;
 use crate::numbers::{mean, rms};
 
 const CELL: f64 = 2.9e-6;
@@ -31,7 +30,7 @@ pub fn scene() -> Scene {
         let [time, pressure] = run.columns(["time_s", "pressure_top_Pa"])?;
         // Each row of the last tenth against the law at its own time: sound still rings.
         let from = time.partition_point(|&t| t <= 0.9 * until);
-        let exact = |t: &f64| tait(1.0 - SPEED * t / height, PF[1]);
+        let exact = |t: &f64| tait(1.0 - SPEED * t / height);
         let exact = mean(time[from..].iter().map(exact));
         let found = mean(pressure[from..].iter().copied());
         // The law itself, without the walls: each point's pressure against that of its own volume.
@@ -39,10 +38,53 @@ pub fn scene() -> Scene {
         let whole = width * height * CELL / points.len() as f64;
         let off = points
             .iter()
-            .map(|p| p.pressure / tait(p.volume / whole, PF[1]) - 1.0);
+            .map(|p| p.pressure / tait(p.volume / whole) - 1.0);
         Ok(vec![
             Measured::relative("piston pressure", found, exact),
             Measured::absolute("rms pressure of points of their volume", rms(off)),
+        ])
+    })
+}
+
+/// Pressure at a relative volume, Pa.
+fn tait(j: f64) -> f64 {
+    0.0894 * PF[1] * (((1.0 - j) / 0.0894).exp() - 1.0)
+}
+
+/// Body force per mass, m/s2.
+const G: f64 = 1e6;
+
+/// Liquid at rest under a body force: weight on the floor and pressure over the height. A column of 12 cells, its floor `offset` cells off the nodes, after `until` (s).
+pub fn resting_scene(offset: f64, until: f64) -> Scene {
+    let (width, floor, height) = (4.0 * CELL, (2.0 + offset) * CELL, 12.0 * CELL);
+    let case = CaseText {
+        title: format!(
+            "Liquid at rest under a body force, floor {offset} cell off the nodes.\nAgainst rho g h."
+        ),
+        contact: "law = \"frictionless\"\n".into(),
+        gravity: [0.0, -G, 0.0],
+        boundary: ["symmetry", "open", "symmetry"],
+        stop: Some(until),
+        bodies: vec![
+            Body::wall([0.0; 3], [width, floor, CELL]).named("bottom"),
+            Body::liquid([0.0, floor, 0.0], [width, floor + height, CELL]),
+        ],
+        history_every: until / 200.0,
+        ..CaseText::plane(CELL, [width, 18.0 * CELL])
+    };
+    let name = format!("column-off{offset}");
+    Scene::new(name, "hydrostatics", case, move |run| {
+        let weight = PF[0] * G * height;
+        let force = run.history("pressure_bottom_Pa")?;
+        let late = mean(force[force.len() * 4 / 5..].iter().copied());
+        let points = run.points()?;
+        let depth = |y: f64| floor + height - y;
+        let off = points
+            .iter()
+            .map(|p| p.pressure - PF[0] * G * depth(p.at[1]));
+        Ok(vec![
+            Measured::relative("weight on the floor", late, weight),
+            Measured::absolute("rms pressure over rho g h", rms(off) / weight),
         ])
     })
 }
