@@ -116,7 +116,7 @@ fn bonds_and_cells_that_do_not_fit_are_refused() {
         r#"grid.domain={ min = ["0 um", "0 um", "0 um"], max = ["8 um", "8 um", "8 um"] }"#;
     let points = "grid={ cell = \"4 um\", points_per_direction = 1 }";
     let body = r#"body=[{ material = "rigid", box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "1 m"] } }]"#;
-    let positive = "a number of voxels greater than zero is needed";
+    let positive = "number of voxels greater than zero is needed";
     for (change, sentence) in [
         ("grid.dimensions=2", "thick along z, but this one has 8"),
         ("grid.cell=3 um", "2.667 cells of 3.0000 um wide along x"),
