@@ -15,6 +15,7 @@ mod clouds;
 mod colour;
 mod colour_bar;
 mod column_name;
+mod command_line;
 mod drawing;
 mod frame;
 mod known;

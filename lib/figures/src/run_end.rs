@@ -4,13 +4,13 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use particle_file::RUN_MARK;
 use serde_json::Value;
 
 use crate::closing::time_unit;
+use crate::command_line::{self, again};
 use crate::{Error, Labelled};
 
-/// Marks a folder as a run's.
-const MARK: &str = "bondline-run.toml";
 const SUMMARY: &str = "summary.json";
 pub(crate) const RESOLVED: &str = "resolved.toml";
 const MOST_BYTES: u64 = 1 << 20;
@@ -61,11 +61,22 @@ impl RunEnd {
                 Err(e) => return Err(broken(&e)),
                 Ok(_) => serde_json::from_slice(&text).map_err(|e| broken(&e))?,
             };
-        Ok(Some(Self::of(&summary)))
+        Ok(path
+            .parent()
+            .map(|folder| Self::in_folder(folder, &summary)))
+    }
+
+    /// The end of the run in `folder`, with this summary; null where there is none yet.
+    pub fn in_folder(folder: &Path, summary: &Value) -> Self {
+        let mut end = Self::of(summary);
+        if summary.is_null() {
+            end.command = command_line::of_states(folder).unwrap_or_default();
+        }
+        end
     }
 
     /// The end that a summary tells of; of no summary, that there is none yet.
-    pub fn of(summary: &Value) -> Self {
+    fn of(summary: &Value) -> Self {
         let number = |key| summary.get(key).and_then(Value::as_f64).unwrap_or(f64::NAN);
         let texts = |pointer: &str| -> Vec<String> {
             let found = summary.pointer(pointer).and_then(Value::as_array);
@@ -158,13 +169,13 @@ impl RunEnd {
         let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
-                let command = self.with("--resume", None);
+                let command = again(&self.command, "--resume", None);
                 format!("{mark}: mpm-run with --resume goes on{command}")
             }
             end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; "),
             "time-limit" => {
                 let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
-                let command = self.with("--overwrite", Some(&limit));
+                let command = again(&self.command, "--overwrite", Some(&limit));
                 format!(
                     "{open}: penetration of a press on its way. A longer press: --set \"{limit}\" (make: SET=\"{limit}\"){command}"
                 )
@@ -172,26 +183,13 @@ impl RunEnd {
             end => format!("{open} when the run ended ({end})"),
         })
     }
-
-    /// The command of the run again, with an option and a key.
-    fn with(&self, option: &str, key: Option<&str>) -> String {
-        let tool = self.command.first().map(|tool| Path::new(tool).file_name());
-        if tool != Some(Some("mpm-run".as_ref())) {
-            return String::new();
-        }
-        let kept = self.command.iter().map(String::as_str);
-        let kept = kept.filter(|word| !matches!(*word, "--resume" | "--overwrite"));
-        let set = key.into_iter().flat_map(|key| ["--set", key]);
-        let words: Vec<String> = kept.chain([option]).chain(set).map(quoted).collect();
-        format!(":\n    {}", words.join(" "))
-    }
 }
 
 /// What is read of the run whose folder `file` lies in: its summary and its case.
 pub fn read_beside(file: &Path) -> Option<[PathBuf; 2]> {
     let folder = file.parent()?;
     let read = || [SUMMARY, RESOLVED].map(|name| folder.join(name));
-    folder.join(MARK).is_file().then(read)
+    folder.join(RUN_MARK).is_file().then(read)
 }
 
 impl Labelled {
@@ -220,15 +218,6 @@ fn time(seconds: f64) -> String {
     let digit = 10_f64.powf(count.log10().floor());
     let count = ((count / digit - 1e-9).ceil() * digit).round();
     format!("{count} {}", name.replace('µ', "u"))
-}
-
-/// A word for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 #[cfg(test)]
@@ -322,7 +311,7 @@ mod tests {
         let file = folder.path().join("wp.csv");
         write(SUMMARY, &summary("time-limit", 4.2e-6).to_string());
         assert_eq!(RunEnd::beside(&file).unwrap(), None);
-        write(MARK, "");
+        write(RUN_MARK, "");
         let label = "FLIP".to_owned();
         let path = file.clone();
         let marked = Labelled { label, path }.marked().unwrap();

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use figures::{Known, RunEnd, Table, fixed, pressure_limit, time_unit};
-use particle_file::ParticleFile;
+use particle_file::{ParticleFile, file_of_run};
 use serde_json::Value;
 
 use crate::setup::Setup;
@@ -41,13 +41,14 @@ impl RunFolder {
     /// # Errors
     /// A folder without `resolved.toml`, or files that are not a run's.
     pub fn read(folder: &Labelled) -> Result<Self, Error> {
+        let case = file_of_run(&folder.path, "resolved.toml")?;
         let path = folder.path.join("summary.json");
         let summary: Value = match path.try_exists() {
             Ok(false) => Value::Null,
             _ => serde_json::from_str(&read_text(&path, MOST_BYTES)?)
                 .map_err(|e| Error::Data(format!("'{}' is not JSON: {e}", path.display())))?,
         };
-        let resolved = read_text(&folder.path.join("resolved.toml"), MOST_BYTES)?;
+        let resolved = read_text(&case, MOST_BYTES)?;
         let case = summary.pointer("/provenance/inputs/0/path");
         let case = Path::new(case.and_then(Value::as_str).unwrap_or("case"));
         let case = case.file_name().unwrap_or_default().to_string_lossy();
@@ -83,7 +84,7 @@ impl RunFolder {
                 ];
                 doubts.into_iter().flatten().collect()
             }),
-            end: RunEnd::of(&summary),
+            end: RunEnd::in_folder(&folder.path, &summary),
             setup: Setup::read(&folder.path, &case, &resolved),
             wp,
             pressure,
