@@ -228,7 +228,7 @@ fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
 impl Course {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
-        let mut time = table.data("time_s")?;
+        let mut time = table.numbers("time_s")?;
         // The log of a press has no steps.
         if table.has("dt_s") {
             let steps = table.numbers("dt_s")?;
@@ -237,9 +237,9 @@ impl Course {
         Ok(Self {
             label: source.label.clone(),
             time,
-            pressure: table.data("pressure_top_Pa")?,
+            pressure: table.numbers("pressure_top_Pa")?,
             band: Vec::new(),
-            speed: table.data("closing_speed_m_s")?,
+            speed: table.numbers("closing_speed_m_s")?,
             staged: table.has("stage"),
         })
     }
@@ -255,9 +255,9 @@ fn shade(run: usize, converged: bool) -> RGBAColor {
 /// How far the clamp of a run had gone in the middles of its steps, m.
 fn travel(source: &Labelled) -> Result<Vec<f64>, Error> {
     let table = Table::read(&source.path)?;
-    let (steps, speed) = (table.data("dt_s")?, table.data("closing_speed_m_s")?);
+    let (steps, speed) = (table.numbers("dt_s")?, table.numbers("closing_speed_m_s")?);
     let steps = steps.iter().zip(speed);
-    let ends = table.data("displacement_m")?.into_iter();
+    let ends = table.numbers("displacement_m")?.into_iter();
     let middles = ends.zip(steps).map(|(s, (dt, v))| s - 0.5 * dt * v);
     Ok(middles.collect())
 }
@@ -273,7 +273,7 @@ pub fn time_unit(last: f64) -> (f64, &'static str) {
 
 /// At most four points per logical pixel column, keeping the extremes, so that noise keeps
 /// its height and an SVG of 100 000 steps stays small.
-pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
+fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     let mut column: Vec<Point> = Vec::new();
     let mut flush = |column: &mut Vec<Point>| {
@@ -291,15 +291,11 @@ pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
         column.clear();
     };
     for point in points {
-        let gap = !(point[0].is_finite() && point[1].is_finite());
         let begins = |first: &Point| first[0].floor() != point[0].floor();
-        if gap || column.first().is_some_and(begins) {
+        if column.first().is_some_and(begins) {
             flush(&mut column);
         }
         column.push(point);
-        if gap {
-            flush(&mut column);
-        }
     }
     flush(&mut column);
     kept
@@ -310,7 +306,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thinning_keeps_extremes_ends_and_gaps() {
+    fn thinning_keeps_extremes_and_ends() {
         let noise = |i: usize| if i == 517 { 99.0 } else { (i % 7) as f64 };
         let points: Vec<Point> = (0..1000).map(|i| [i as f64 * 0.01, noise(i)]).collect();
         let kept = thinned(points.iter().copied());
@@ -318,7 +314,5 @@ mod tests {
         assert!(kept.iter().any(|p| p[1] == 99.0));
         assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[999]));
         assert!(kept.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
-        let gap = [[0.1, 1.0], [0.2, f64::NAN], [0.3, 1.0]];
-        assert_eq!(thinned(gap.into_iter()).len(), 3);
     }
 }

@@ -87,7 +87,8 @@ impl Known {
             let number = |what: &str| {
                 let column = format!("{}{what}_{}", q.column[0], q.column[1]);
                 match row.filter(|_| table.has(&column)) {
-                    Some(row) => table.numbers(&column).map(|n| q.factor * n[row]),
+                    // A side without adhesive has no WP.
+                    Some(row) => (table.numbers_but(&column, |_| true)).map(|n| q.factor * n[row]),
                     None => Ok(f64::NAN),
                 }
             };

@@ -212,7 +212,6 @@ impl Row {
             )));
         }
         let (sides, references) = (table.texts("side")?, table.texts("reference")?);
-        table.numbers("wp_um")?;
         let slabs = table.numbers("slab_wp_um")?;
         let mut total = 0;
         for side in SIDES {
@@ -220,6 +219,7 @@ impl Row {
             let missing = || Error::Data(format!("'{}' has no row with side {side}", table.name()));
             total = row.ok_or_else(missing)?;
         }
+        table.numbers_but("wp_um", |row| row != total)?;
         // It goes into our own table, which people open in a spreadsheet.
         if !REFERENCES.contains(&references[total]) {
             return Err(Error::Data(format!(

@@ -117,12 +117,12 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
         ),
         (
             "pressure --run words.csv",
-            "row 2 below the header, column pressure_top_Pa: 'much'",
+            "line 3, column pressure_top_Pa: 'much'",
         ),
         ("pores wp.csv", "diameter_um"),
         (
             "pores pores.csv",
-            "up_to_fraction: no row holds a finite number",
+            "line 2, column up_to_fraction: 'NaN' is not a finite number",
         ),
         ("slice wp.csv", "wp.csv"),
         ("view wp.csv", "wp.csv"),
