@@ -10,6 +10,7 @@ use crate::frame::{Frame, room_below, room_beside};
 use crate::legend::{Legend, Stroke, patch};
 use crate::measure;
 use crate::page::Page;
+use crate::stages::{self, Stage};
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -25,8 +26,8 @@ struct Course {
     band: Vec<Reach>,
     /// m/s
     speed: Vec<f64>,
-    /// Whether it is of a press programme, whose stages take milliseconds to minutes.
-    staged: bool,
+    /// Of a press programme.
+    stages: Vec<Stage>,
 }
 
 /// The four axes of the figure.
@@ -51,7 +52,8 @@ const BAND_SHADE: f64 = 0.25;
 
 /// Clamping pressure and closing speed against time, one line per run (Figs. 5 and 6 of the
 /// paper), from the `history.csv` of each run. What runs in cells half as large (`finer`, by the label of
-/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line.
+/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line, the stages of press programmes as thin
+/// lines where they begin, with the names of those of the first.
 ///
 /// # Errors
 /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
@@ -78,7 +80,10 @@ pub fn closing(
     let labels = labels.chain(bands.iter().map(|(label, _)| *label));
     let legend = Legend::new(labels, Legend::LINE, across);
     let frame = |top, height| Frame::new([left, top], [across, height]);
-    let upper = frame(title_height + legend.height + 10.0, heights[0]);
+    let mut staged = runs.iter().map(|run| &run.stages);
+    let named = staged.find(|stages| !stages.is_empty());
+    let above = title_height + legend.height + named.map_or(10.0, |_| stages::ROOM);
+    let upper = frame(above, heights[0]);
     let lower = frame(upper.bottom() + 34.0, heights[1]);
     let height = lower.bottom() + room_below(&axes.below, across) + 4.0;
     let mut drawing = Drawing::new(page, width, height);
@@ -96,6 +101,9 @@ pub fn closing(
     };
     legend.draw(&mut drawing, [left, title_height], sample);
     draw(&mut drawing, &runs, &axes, [&upper, &lower]);
+    if let Some(stages) = named {
+        stages::names(&mut drawing, stages, &upper, (&axes.above, axes.unit));
+    }
     if let Some(limit) = limit {
         let place = |t| upper.place(&axes.above, &axes.pressure, [t / axes.unit, limit * 1e-6]);
         let ends = [0.0, f64::MAX].map(place);
@@ -166,7 +174,8 @@ impl Axes {
             runs.iter()
                 .flat_map(|run| run.time.iter().map(|t| t / unit))
         };
-        let time = |title: &str| match runs.iter().any(|run| run.staged) {
+        // Stages take milliseconds to minutes.
+        let time = |title: &str| match runs.iter().any(|run| !run.stages.is_empty()) {
             true => Axis::logarithmic(title, times(), f64::INFINITY),
             false => Axis::over(title, first.min(0.0) / unit, last / unit),
         };
@@ -206,6 +215,8 @@ fn draw(drawing: &mut Drawing, runs: &[Course], axes: &Axes, [upper, lower]: [&F
             thinned(pairs.map(|pair| frame.place(&axes.above, y, place(pair))))
         };
         let stroke = Stroke::of_series(i);
+        let time = (&axes.above, axes.unit);
+        stages::lines(drawing, &run.stages, [upper, lower], time, stroke.colour);
         stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
         stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
     }
@@ -240,7 +251,7 @@ impl Course {
             pressure: table.numbers("pressure_top_Pa")?,
             band: Vec::new(),
             speed: table.numbers("closing_speed_m_s")?,
-            staged: table.has("stage"),
+            stages: Stage::read(&table, &source.path)?,
         })
     }
 }

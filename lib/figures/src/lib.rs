@@ -37,6 +37,7 @@ mod setup;
 mod shear_rate;
 mod slice;
 mod solid;
+mod stages;
 mod svg;
 mod table;
 mod table2;

@@ -12,7 +12,7 @@ use crate::command_line::{self, again};
 use crate::{Error, Labelled};
 
 const SUMMARY: &str = "summary.json";
-pub(crate) const RESOLVED: &str = "resolved.toml";
+const RESOLVED: &str = "resolved.toml";
 const MOST_BYTES: u64 = 1 << 20;
 /// Share of the gap below which a press is closed.
 const CLOSED: f64 = 1e-3;
@@ -190,6 +190,15 @@ pub fn read_beside(file: &Path) -> Option<[PathBuf; 2]> {
     let folder = file.parent()?;
     let read = || [SUMMARY, RESOLVED].map(|name| folder.join(name));
     folder.join(RUN_MARK).is_file().then(read)
+}
+
+/// The case of the run whose folder `file` lies in, as it was run; nothing where it is not known.
+pub(crate) fn case_beside(file: &Path) -> String {
+    let mut text = String::new();
+    if let Some(case) = read_beside(file).and_then(|[_, case]| File::open(case).ok()) {
+        let _ = case.take(MOST_BYTES).read_to_string(&mut text);
+    }
+    text
 }
 
 impl Labelled {

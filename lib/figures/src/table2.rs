@@ -8,7 +8,7 @@ use particle_file::ParticleFile;
 use serde_json::Value;
 
 use crate::known::{SIDES, pressure_limit};
-use crate::run_end::RESOLVED;
+use crate::run_end::case_beside;
 use crate::table::Table;
 use crate::{Error, Known, RunEnd};
 
@@ -266,12 +266,7 @@ fn end(table: &Path, named: &str) -> Result<Option<(RunEnd, f64)>, Error> {
     for place in [table, state] {
         if let Some(end) = RunEnd::beside(place)? {
             is_of(table, named, &place.with_file_name(FINAL))?;
-            let mut case = String::new();
-            let file = File::open(place.with_file_name(RESOLVED));
-            // Without its case the limit is not known.
-            let read = file.and_then(|file| file.take(MOST_BYTES).read_to_string(&mut case));
-            let limit = read.map_or(f64::NAN, |_| pressure_limit(&case));
-            return Ok(Some((end, limit)));
+            return Ok(Some((end, pressure_limit(&case_beside(place)))));
         }
     }
     Ok(None)

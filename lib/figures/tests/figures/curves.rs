@@ -71,12 +71,24 @@ fn rows_stand_in_the_middle_of_their_steps() {
 
 /// Stages of milliseconds stand beside a hold of minutes.
 #[test]
-fn a_press_programme_has_a_logarithmic_time() {
+fn a_press_programme_has_a_logarithmic_time_and_named_stages() {
     let folder = Folder::new();
-    let rows = [1e-3, 1.0, 300.0].map(|t| format!("{t},0,1,1e6,1"));
+    let rows = [(1e-3, 0), (1.0, 2), (1.02, 3), (300.0, 4)];
+    let rows = rows.map(|(t, stage)| format!("{t},1e-3,1,1e6,{stage}"));
     let header = "time_s,dt_s,closing_speed_m_s,pressure_top_Pa,stage";
-    let drawing = closed(&[folder.labelled("a", csv(header, rows))]);
-    says(&drawing, &["time (s)", "10⁻²", "10²"]);
+    let run = [folder.labelled("a", csv(header, rows))];
+    says(
+        &closed(&run),
+        &["time (s)", "10⁻²", "10²", "stage 0", "stage 2"],
+    );
+    folder.file("bondline-run.toml", "");
+    let stages =
+        ["approach", "ramp", "hold"].map(|kind| format!("[[clamp.stage]]\nkind = \"{kind}\"\n"));
+    folder.file("resolved.toml", stages.concat());
+    let drawing = closed(&run);
+    says(&drawing, &["ramp", "stage 4"]);
+    // There is no room for a second name at the same place.
+    assert!(!drawing.text_boxes().iter().any(|one| one.text == "hold"));
 }
 
 /// A run at 1 MPa and its finer one at 1.2, which goes as far in half the time: in cells of no size 1.4 +- 0.2
