@@ -47,7 +47,7 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
     }
     let (first, last) = extent(times.into_iter());
     let (unit, name) = time_unit(last);
-    let mut plot = Plot::new(title, &format!("time ({name})"), axis);
+    let mut plot = Plot::new(&titled(title, runs), &format!("time ({name})"), axis);
     if last > LONG * first {
         plot = plot.decades();
     }
@@ -69,6 +69,14 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
         }
     }
     Ok(plot)
+}
+
+/// A title, with the label of a single run, which no line has.
+fn titled(title: &str, runs: &[Labelled]) -> String {
+    match runs {
+        [run] => format!("{title}, {}", run.label),
+        _ => title.into(),
+    }
 }
 
 /// A quantity of one side over time, in `unit` (s); what is at no time has no logarithm.
@@ -132,8 +140,9 @@ fn of_history(
 
 /// The filled share of open lumens against depth: of one run at some of its times, of several at their last.
 fn filled(runs: &[Labelled], tables: &[Table]) -> Result<Plot, Error> {
-    let title = "depth from the middle of the bond line (µm), bottom negative";
-    let mut plot = Plot::new("Filled share of the open lumens", title, "filled share");
+    let depth = "depth from the middle of the bond line (µm), bottom negative";
+    let title = titled("Filled share of the open lumens", runs);
+    let mut plot = Plot::new(&title, depth, "filled share");
     for (run, table) in runs.iter().zip(tables) {
         let depths = table.numbers("depth_um")?;
         let shares = table.numbers_but("filled_open_fraction", |_| true)?;

@@ -164,12 +164,21 @@ p95_depth_total_um,wetted_area_bottom_um2,wetted_area_top_um2,bond_line";
     bench.write("one.csv", series.replace("top,mid", "total,mid"));
     table("none.csv", &["time_s,bond_line", "1,filled"]);
     for (arguments, words) in [
-        ("press", &["WP, bottom", "starved", "time (µs)"][..]),
+        (
+            "press",
+            &["Penetration, press", "WP, bottom", "starved", "time (µs)"][..],
+        ),
         ("a=press b=press", &["a: WP, total", "b: starved"]),
         ("--show wetted press", &["wood wetted (µm²)", "top"]),
         (
             "--show filled depth.csv",
-            &["10.000 µs", "300.000 s", "filled share", "1.0"],
+            &[
+                "Filled share of the open lumens, depth",
+                "10.000 µs",
+                "300.000 s",
+                "filled share",
+                "1.0",
+            ],
         ),
         (
             "series.csv",
