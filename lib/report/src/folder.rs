@@ -190,7 +190,7 @@ impl RunFolder {
         let across = self.number("/expected_error/cells_per_lumen", 1.0, 1);
         let Some(cells) = expected.get("measured_with_cells").and_then(Value::as_f64) else {
             return format!(
-                "<p>Not measured with this update, shape and options; lumens of 17.4 um, not this specimen's, are {across} cells across.</p>\n"
+                "<p>Not measured with this update, shape and options; a lumen of 17.4 um is {across} cells across.</p>\n"
             );
         };
         let list = self.list("/expected_error/errors");
@@ -212,7 +212,7 @@ impl RunFolder {
             &errors,
         ) + &lumens.collect::<String>()
             + &format!(
-                "<p>Lumens of 17.4 um, not this specimen's, are {across} cells across here and {cells} in the measurement, walls off the nodes among them: slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference.{}</p>\n",
+                "<p>A lumen of 17.4 um is {across} cells across here and {cells} in the measurement, some walls between nodes. A slit was measured against finite elements, a bond line against finer runs of the implicit scheme alone.{}</p>\n",
                 html::escape(&others)
             )
     }
