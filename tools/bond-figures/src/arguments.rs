@@ -24,25 +24,8 @@ use crate::values::{
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) figure: Figure,
-}
-
-impl Arguments {
-    /// The common options of whichever figure.
-    pub(crate) fn common(&self) -> &cli::Common {
-        match &self.figure {
-            Figure::Pressure { picture, .. }
-            | Figure::Map { picture, .. }
-            | Figure::Shear { picture, .. }
-            | Figure::Penetration { picture, .. }
-            | Figure::Pores { picture, .. }
-            | Figure::Response { picture, .. }
-            | Figure::Setup { picture, .. }
-            | Figure::View { picture, .. } => &picture.common,
-            Figure::Slice(a) => &a.picture.common,
-            Figure::Movie(a) => &a.common,
-            Figure::Table2(a) => &a.common,
-        }
-    }
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
 }
 
 #[derive(Subcommand)]
@@ -233,8 +216,6 @@ pub(crate) struct MovieArgs {
     pub(crate) look: Look,
     #[command(flatten)]
     pub(crate) print: Print,
-    #[command(flatten)]
-    common: cli::Common,
 }
 
 #[derive(Args)]
@@ -264,8 +245,6 @@ pub(crate) struct Table2Args {
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) print: Print,
-    #[command(flatten)]
-    common: cli::Common,
 }
 
 impl Table2Args {

@@ -20,7 +20,7 @@ use picture::Picture;
 use values::{Format, Target};
 
 fn main() -> ExitCode {
-    cli::main(Arguments::common, run)
+    cli::main(|a: &Arguments| &a.common, run)
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {

@@ -12,8 +12,6 @@ pub(crate) struct Picture {
     pub(crate) output: Vec<Target>,
     #[command(flatten)]
     pub(crate) print: Print,
-    #[command(flatten)]
-    pub(crate) common: cli::Common,
 }
 
 /// What a picture is printed on.
