@@ -247,27 +247,3 @@ fn in_the_way(path: &Path, what: &str) -> RunFailure {
         path.display()
     ))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::folder::tests::held;
-
-    #[test]
-    fn snapshots_are_named_from_a_number_on_and_a_folder_that_cannot_be_read_is_no_empty_one() {
-        let (place, folder) = held();
-        let listed = |first| snapshots(&folder, first);
-        assert!(listed(0).unwrap().is_empty(), "no folder, no snapshots");
-        folder.make_snapshots().unwrap();
-        for name in ["0000.mpts", "0007.mpts", "12345.mpts", "7.mpts", "0008.npy"] {
-            fs::write(place.path().join(SNAPSHOTS).join(name), "").unwrap();
-        }
-        assert_eq!(
-            listed(7).unwrap(),
-            ["snapshots/0007.mpts", "snapshots/12345.mpts"]
-        );
-        fs::remove_dir_all(place.path().join(SNAPSHOTS)).unwrap();
-        fs::write(place.path().join(SNAPSHOTS), "theirs").unwrap();
-        assert!(listed(0).is_err());
-    }
-}
