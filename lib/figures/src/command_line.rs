@@ -39,14 +39,13 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use particle_file::{Draft, Header, Kind, Provenance};
-    use serde_json::Value;
 
     use crate::RunEnd;
 
     #[test]
     fn a_killed_run_is_told_with_the_command_of_its_checkpoint() {
         let folder = tempfile::tempdir().unwrap();
-        let advice = || RunEnd::in_folder(folder.path(), &Value::Null).advice();
+        let advice = || RunEnd::in_folder(folder.path()).unwrap().0.advice();
         let known = "not ended: mpm-run with --resume goes on";
         assert_eq!(advice().unwrap(), known);
         let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [1.0; 3]);

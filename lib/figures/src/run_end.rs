@@ -1,7 +1,7 @@
 //! How the run of a file ended, as the summary of its folder has it.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use particle_file::RUN_MARK;
@@ -51,28 +51,29 @@ impl RunEnd {
         let Some([path, _]) = read_beside(file) else {
             return Ok(None);
         };
-        let broken = |e: &dyn std::fmt::Display| {
-            Error::Data(format!("cannot read '{}': {e}", path.display()))
-        };
-        let mut text = Vec::new();
-        let summary =
-            match File::open(&path).and_then(|f| f.take(MOST_BYTES).read_to_end(&mut text)) {
-                Err(e) if e.kind() == ErrorKind::NotFound => Value::Null,
-                Err(e) => return Err(broken(&e)),
-                Ok(_) => serde_json::from_slice(&text).map_err(|e| broken(&e))?,
-            };
-        Ok(path
-            .parent()
-            .map(|folder| Self::in_folder(folder, &summary)))
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::in_folder(folder).map(|(end, _)| Some(end))
     }
 
-    /// The end of the run in `folder`, with this summary; null where there is none yet.
-    pub fn in_folder(folder: &Path, summary: &Value) -> Self {
-        let mut end = Self::of(summary);
+    /// The end of the run in `folder`, and its summary; null where there is none yet.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for a summary that cannot be read.
+    pub fn in_folder(folder: &Path) -> Result<(Self, Value), Error> {
+        let path = folder.join(SUMMARY);
+        let summary: Value = match small_text(&path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => Value::Null,
+            read => {
+                let summary = read.and_then(|text| serde_json::from_str(&text).map_err(Into::into));
+                summary
+                    .map_err(|e| Error::Data(format!("cannot read '{}': {e}", path.display())))?
+            }
+        };
+        let mut end = Self::of(&summary);
         if summary.is_null() {
             end.command = command_line::of_states(folder).unwrap_or_default();
         }
-        end
+        Ok((end, summary))
     }
 
     /// The end that a summary tells of; of no summary, that there is none yet.
@@ -194,11 +195,16 @@ pub fn read_beside(file: &Path) -> Option<[PathBuf; 2]> {
 
 /// The case of the run whose folder `file` lies in, as it was run; nothing where it is not known.
 pub(crate) fn case_beside(file: &Path) -> String {
+    let read = |[_, case]: [PathBuf; 2]| small_text(&case).ok();
+    read_beside(file).and_then(read).unwrap_or_default()
+}
+
+/// The text of a record, of 1 MiB at most.
+pub(crate) fn small_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
-    if let Some(case) = read_beside(file).and_then(|[_, case]| File::open(case).ok()) {
-        let _ = case.take(MOST_BYTES).read_to_string(&mut text);
-    }
-    text
+    let file = File::open(path)?;
+    file.take(MOST_BYTES).read_to_string(&mut text)?;
+    Ok(text)
 }
 
 impl Labelled {

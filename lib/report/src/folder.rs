@@ -42,12 +42,7 @@ impl RunFolder {
     /// A folder without `resolved.toml`, or files that are not a run's.
     pub fn read(folder: &Labelled) -> Result<Self, Error> {
         let case = file_of_run(&folder.path, "resolved.toml")?;
-        let path = folder.path.join("summary.json");
-        let summary: Value = match path.try_exists() {
-            Ok(false) => Value::Null,
-            _ => serde_json::from_str(&read_text(&path, MOST_BYTES)?)
-                .map_err(|e| Error::Data(format!("'{}' is not JSON: {e}", path.display())))?,
-        };
+        let (end, summary) = RunEnd::in_folder(&folder.path)?;
         let resolved = read_text(&case, MOST_BYTES)?;
         let case = summary.pointer("/provenance/inputs/0/path");
         let case = Path::new(case.and_then(Value::as_str).unwrap_or("case"));
@@ -84,7 +79,7 @@ impl RunFolder {
                 ];
                 doubts.into_iter().flatten().collect()
             }),
-            end: RunEnd::in_folder(&folder.path, &summary),
+            end,
             setup: Setup::read(&folder.path, &case, &resolved),
             wp,
             pressure,

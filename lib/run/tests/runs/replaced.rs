@@ -251,23 +251,6 @@ fn what_came_after_the_checkpoint_goes() {
     assert!(ended.unwrap().is_some());
 }
 
-/// 314e630 let both end well, with the files of either.
-#[test]
-fn a_folder_takes_one_run_at_a_time() {
-    let bench = Bench::explicit();
-    let other = || {
-        for mode in MODES {
-            match bench.run("run", mode, END, &[]) {
-                Err(RunFailure::Usage(said)) => has(&said, &["another run is writing"]),
-                ended => panic!("{ended:?}"),
-            }
-        }
-        false
-    };
-    let ended = bench.run_told("run", PLAIN, &other, &mut |_, _| {}, &[]);
-    assert!(ended.unwrap().is_some());
-}
-
 #[test]
 fn a_checkpoint_of_another_case_or_damaged_is_refused_or_replaced() {
     let bench = Bench::explicit();
