@@ -80,9 +80,7 @@ pub fn closing(
     let labels = labels.chain(bands.iter().map(|(label, _)| *label));
     let legend = Legend::new(labels, Legend::LINE, across);
     let frame = |top, height| Frame::new([left, top], [across, height]);
-    let mut staged = runs.iter().map(|run| &run.stages);
-    let named = staged.find(|stages| !stages.is_empty());
-    let above = title_height + legend.height + named.map_or(10.0, |_| stages::ROOM);
+    let above = title_height + legend.height + staged(&runs).map_or(10.0, |_| stages::ROOM);
     let upper = frame(above, heights[0]);
     let lower = frame(upper.bottom() + 34.0, heights[1]);
     let height = lower.bottom() + room_below(&axes.below, across) + 4.0;
@@ -101,9 +99,6 @@ pub fn closing(
     };
     legend.draw(&mut drawing, [left, title_height], sample);
     draw(&mut drawing, &runs, &axes, [&upper, &lower]);
-    if let Some(stages) = named {
-        stages::names(&mut drawing, stages, &upper, (&axes.above, axes.unit));
-    }
     if let Some(limit) = limit {
         let place = |t| upper.place(&axes.above, &axes.pressure, [t / axes.unit, limit * 1e-6]);
         let ends = [0.0, f64::MAX].map(place);
@@ -175,9 +170,9 @@ impl Axes {
                 .flat_map(|run| run.time.iter().map(|t| t / unit))
         };
         // Stages take milliseconds to minutes.
-        let time = |title: &str| match runs.iter().any(|run| !run.stages.is_empty()) {
-            true => Axis::logarithmic(title, times(), f64::INFINITY),
-            false => Axis::over(title, first.min(0.0) / unit, last / unit),
+        let time = |title: &str| match staged(runs) {
+            Some(_) => Axis::logarithmic(title, times(), f64::INFINITY),
+            None => Axis::over(title, first.min(0.0) / unit, last / unit),
         };
         let bands = runs.iter().flat_map(|run| &run.band);
         let bands = bands.flat_map(|at| [at.low, at.high]);
@@ -216,10 +211,23 @@ fn draw(drawing: &mut Drawing, runs: &[Course], axes: &Axes, [upper, lower]: [&F
         };
         let stroke = Stroke::of_series(i);
         let time = (&axes.above, axes.unit);
-        stages::lines(drawing, &run.stages, [upper, lower], time, stroke.colour);
+        let named = staged(runs) == Some(i);
+        stages::draw(
+            drawing,
+            &run.stages,
+            [upper, lower],
+            time,
+            stroke.colour,
+            named,
+        );
         stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
         stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
     }
+}
+
+/// The first run of a press programme.
+fn staged(runs: &[Course]) -> Option<usize> {
+    runs.iter().position(|run| !run.stages.is_empty())
 }
 
 /// Says what the dashed line at height `y` is, on the side of it where there is room.

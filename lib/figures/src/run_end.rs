@@ -307,18 +307,6 @@ mod tests {
     }
 
     #[test]
-    fn times_are_rounded_up_to_a_digit() {
-        for (seconds, text) in [
-            (2.26e-4, "300 us"),
-            (9.1e-4, "1000 us"),
-            (0.03, "30 ms"),
-            (900.1, "1000 s"),
-        ] {
-            assert_eq!(time(seconds), text);
-        }
-    }
-
-    #[test]
     fn only_files_in_run_folders_are_marked() {
         let folder = tempfile::tempdir().unwrap();
         let write =

@@ -50,37 +50,27 @@ impl Stage {
     }
 }
 
-/// Draws a thin line in each frame where a stage begins, times in `unit` (s).
-pub(crate) fn lines(
+/// Draws a thin line in each frame where a stage begins, times in `unit` (s), and their names above the first where they are
+/// to be `named` and there is room.
+pub(crate) fn draw(
     drawing: &mut Drawing,
     stages: &[Stage],
     frames: [&Frame; 2],
     (time, unit): (&Axis, f64),
     colour: RGBAColor,
+    named: bool,
 ) {
+    let mut free = frames[0].left;
     for stage in stages {
+        let x = frames[0].left + time.share(stage.begin_s / unit) * frames[0].width;
         for frame in frames {
-            let x = frame.left + time.share(stage.begin_s / unit) * frame.width;
             let ends = [[x, frame.top], [x, frame.bottom()]];
             drawing.line(ends.to_vec(), faded(colour, SHADE), 1.0);
         }
-    }
-}
-
-/// Names the stages above a frame, as far as there is room.
-pub(crate) fn names(
-    drawing: &mut Drawing,
-    stages: &[Stage],
-    frame: &Frame,
-    (time, unit): (&Axis, f64),
-) {
-    let mut free = frame.left;
-    for stage in stages {
         let width = measure::width(&stage.name, SMALL);
-        let line = frame.left + time.share(stage.begin_s / unit) * frame.width;
-        let left = line.min(frame.right() - width);
-        if left >= free {
-            let at = [left, frame.top - 0.6 * SMALL];
+        let left = x.min(frames[0].right() - width);
+        if named && left >= free {
+            let at = [left, frames[0].top - 0.6 * SMALL];
             drawing.text(stage.name.clone(), at, Anchor::Left, SMALL);
             free = left + width + 0.5 * SMALL;
         }

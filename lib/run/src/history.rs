@@ -230,17 +230,6 @@ mod tests {
         assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
     }
 
-    /// 314e630 went on and ended well, without a history.
-    #[test]
-    fn a_history_that_is_removed_meanwhile_is_noticed() {
-        let (_place, folder) = held();
-        let mut history = create(&folder);
-        fs::remove_file(folder.place(HISTORY)).unwrap();
-        add(&mut history, &[1]);
-        let said = history.sync().unwrap_err().to_string();
-        assert!(said.contains("history.csv: it was removed"), "{said}");
-    }
-
     /// Bytes that are no text were said to be a failed write before.
     #[test]
     fn a_history_that_was_changed_is_not_continued() {

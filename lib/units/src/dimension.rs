@@ -56,29 +56,21 @@ dimension!(/// Surface tension, SI newton per metre.
 dimension!(/// Plane angle, SI radian.
     Angle, "an angle", &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0), ("°", std::f64::consts::PI / 180.0)], [1e-30, 1e3]);
 
+macro_rules! all {
+    ($($dimension:ident),*) => { &[$(($dimension::NAME, $dimension::UNITS)),*] };
+}
+
+/// Every dimension: its name and units, of which the first with a symbol is meant by it.
+#[rustfmt::skip]
+pub const ALL: &[(&str, &[(&str, f64)])] = all!(
+    Length, Time, Speed, Pressure, Viscosity, Density, Acceleration, ShearRate, Consistency, MolarEnergy, Spread,
+    Diffusivity, SurfaceTension, Angle
+);
+
 /// What a unit symbol measures, and what one of it is in SI.
 pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
-    fn of<D: Dimension>(symbol: &str) -> Option<(&'static str, f64)> {
-        let (_, factor) = D::UNITS.iter().find(|(name, _)| *name == symbol)?;
-        Some((D::NAME, *factor))
-    }
-    macro_rules! first {
-        ($($dimension:ty),*) => { None$(.or_else(|| of::<$dimension>(symbol)))* };
-    }
-    first!(
-        Length,
-        Time,
-        Speed,
-        Pressure,
-        Viscosity,
-        Density,
-        Acceleration,
-        ShearRate,
-        Consistency,
-        MolarEnergy,
-        Spread,
-        Diffusivity,
-        SurfaceTension,
-        Angle
-    )
+    ALL.iter().find_map(|(name, units)| {
+        let (_, factor) = units.iter().find(|(known, _)| *known == symbol)?;
+        Some((*name, *factor))
+    })
 }

@@ -7,8 +7,8 @@ use units::{Axis, Pressure};
 
 use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, one_of, part, png,
-    position, rate, run, share,
+    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, number, one_of,
+    part, png, position, run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -210,7 +210,7 @@ pub(crate) struct MovieArgs {
     #[arg(short, long, value_name = "PNG", value_parser = given(png))]
     pub(crate) output: Output,
     /// Frames a second, 0.1 to 60; the last frame stays for two seconds
-    #[arg(long, value_name = "NUMBER", default_value = "5", value_parser = rate)]
+    #[arg(long, value_name = "NUMBER", default_value = "5", value_parser = |text: &str| number(text, [0.1, 60.0]))]
     pub(crate) rate: f64,
     #[command(flatten)]
     pub(crate) look: Look,

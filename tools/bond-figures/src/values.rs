@@ -186,15 +186,9 @@ pub(crate) fn degrees(text: &str, [least, most]: [f64; 2]) -> Result<f64, String
     within([least, most], text).ok_or_else(wrong)
 }
 
-pub(crate) fn dpi(text: &str) -> Result<f64, String> {
-    let [least, most] = Page::DPI;
+pub(crate) fn number(text: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
     let wrong = || format!("'{text}' is not a number from {least} to {most}");
-    within(Page::DPI, text).ok_or_else(wrong)
-}
-
-/// Frames a second.
-pub(crate) fn rate(text: &str) -> Result<f64, String> {
-    within([0.1, 60.0], text).ok_or_else(|| format!("'{text}' is not a number from 0.1 to 60"))
+    within([least, most], text).ok_or_else(wrong)
 }
 
 /// A length, or a multiple of the voxel of the first file.
