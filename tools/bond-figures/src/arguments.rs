@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
 
 #[derive(Subcommand)]
 pub(crate) enum Figure {
-    /// Clamping pressure and closing speed against time (Figs. 5 and 6)
+    /// Clamping pressure and closing speed against time (Figs. 5 and 6), stages of press programmes marked
     #[command(after_help = "Examples:
   bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
   bond-figures pressure --run out/pf-xpic --limit \"2.5 MPa\" --title PF -o pf.svg -o pf.png
