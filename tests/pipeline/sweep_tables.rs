@@ -30,7 +30,17 @@ particles,integrator.scheme,integrator.pressure;bond.mpts,implicit,;bond.mpts,im
 particles,specimen.seed;bond.mpts,1 | row 1, column specimen.seed | leave one of them empty
 particles;specimen.mpts | row 1, column particles | holds a specimen
 particles;absent.mpts | row 1, column particles | absent.mpts
-specimen.seed;1;-1 | row 2, column specimen.seed: | '-1'
+specimen.seed;1;-1 | row 2, column specimen.seed: | '-1' is not accepted: a whole number from 0
+specimen.adhesive;glue | row 1, column specimen.adhesive: | pf or pva-pf
+specimen.size;40x0x40 | row 1, column specimen.size: | 40x96x40
+specimen.slab;14.5 | row 1, column specimen.slab: | no unit
+specimen.grain_angle;5 um | row 1, column specimen.grain_angle: | angle
+specimen.voxel;-1 um | row 1, column specimen.voxel: | greater than zero
+specimen.colour;1 | 'specimen.colour' | there are adhesive, size
+a.b,a.b;1,2 | two columns 'a.b' | table.csv
+a.b\tc.d;1 | is no column | separated by commas
+a.b,c.d;1,2;1 | row 2 has 1 cells | stands in quotes
+a.b,c.d;,;, | no row | below its header
 specimen.size;8x8x8 | row 1: its specimen: | synth-xct:
 case;absent | row 1 | absent.toml
 viscosity;1 | 'viscosity' | is no column";

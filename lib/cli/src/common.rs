@@ -15,16 +15,22 @@ use crate::{message, signals};
 #[command(next_help_heading = "Common options")]
 pub struct Common {
     /// Print errors and warnings only
-    #[arg(short, long, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
     /// Print details
-    #[arg(short, long)]
+    #[arg(short, long, global = true)]
     verbose: bool,
     /// Worker threads [default: RAYON_NUM_THREADS, then SLURM_CPUS_PER_TASK, then all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
     /// Print the man page or a shell completion script and exit
-    #[arg(long, value_name = "WHAT", exclusive = true, ignore_case = true)]
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHAT",
+        exclusive = true,
+        ignore_case = true
+    )]
     #[arg(value_parser = ["man", "bash", "zsh", "fish", "elvish", "powershell"])]
     generate: Option<String>,
 }

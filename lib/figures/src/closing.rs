@@ -10,6 +10,7 @@ use crate::frame::{Frame, room_below, room_beside};
 use crate::legend::{Legend, Stroke, patch};
 use crate::measure;
 use crate::page::Page;
+use crate::stages::{self, Stage};
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -25,8 +26,8 @@ struct Course {
     band: Vec<Reach>,
     /// m/s
     speed: Vec<f64>,
-    /// Whether it is of a press programme, whose stages take milliseconds to minutes.
-    staged: bool,
+    /// Of a press programme.
+    stages: Vec<Stage>,
 }
 
 /// The four axes of the figure.
@@ -51,7 +52,8 @@ const BAND_SHADE: f64 = 0.25;
 
 /// Clamping pressure and closing speed against time, one line per run (Figs. 5 and 6 of the
 /// paper), from the `history.csv` of each run. What runs in cells half as large (`finer`, by the label of
-/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line.
+/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line, the stages of press programmes as thin
+/// lines where they begin, with the names of those of the first.
 ///
 /// # Errors
 /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
@@ -78,7 +80,8 @@ pub fn closing(
     let labels = labels.chain(bands.iter().map(|(label, _)| *label));
     let legend = Legend::new(labels, Legend::LINE, across);
     let frame = |top, height| Frame::new([left, top], [across, height]);
-    let upper = frame(title_height + legend.height + 10.0, heights[0]);
+    let above = title_height + legend.height + staged(&runs).map_or(10.0, |_| stages::ROOM);
+    let upper = frame(above, heights[0]);
     let lower = frame(upper.bottom() + 34.0, heights[1]);
     let height = lower.bottom() + room_below(&axes.below, across) + 4.0;
     let mut drawing = Drawing::new(page, width, height);
@@ -166,9 +169,10 @@ impl Axes {
             runs.iter()
                 .flat_map(|run| run.time.iter().map(|t| t / unit))
         };
-        let time = |title: &str| match runs.iter().any(|run| run.staged) {
-            true => Axis::logarithmic(title, times(), f64::INFINITY),
-            false => Axis::over(title, first.min(0.0) / unit, last / unit),
+        // Stages take milliseconds to minutes.
+        let time = |title: &str| match staged(runs) {
+            Some(_) => Axis::logarithmic(title, times(), f64::INFINITY),
+            None => Axis::over(title, first.min(0.0) / unit, last / unit),
         };
         let bands = runs.iter().flat_map(|run| &run.band);
         let bands = bands.flat_map(|at| [at.low, at.high]);
@@ -206,9 +210,24 @@ fn draw(drawing: &mut Drawing, runs: &[Course], axes: &Axes, [upper, lower]: [&F
             thinned(pairs.map(|pair| frame.place(&axes.above, y, place(pair))))
         };
         let stroke = Stroke::of_series(i);
+        let time = (&axes.above, axes.unit);
+        let named = staged(runs) == Some(i);
+        stages::draw(
+            drawing,
+            &run.stages,
+            [upper, lower],
+            time,
+            stroke.colour,
+            named,
+        );
         stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
         stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
     }
+}
+
+/// The first run of a press programme.
+fn staged(runs: &[Course]) -> Option<usize> {
+    runs.iter().position(|run| !run.stages.is_empty())
 }
 
 /// Says what the dashed line at height `y` is, on the side of it where there is room.
@@ -228,7 +247,7 @@ fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
 impl Course {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
-        let mut time = table.data("time_s")?;
+        let mut time = table.numbers("time_s")?;
         // The log of a press has no steps.
         if table.has("dt_s") {
             let steps = table.numbers("dt_s")?;
@@ -237,10 +256,10 @@ impl Course {
         Ok(Self {
             label: source.label.clone(),
             time,
-            pressure: table.data("pressure_top_Pa")?,
+            pressure: table.numbers("pressure_top_Pa")?,
             band: Vec::new(),
-            speed: table.data("closing_speed_m_s")?,
-            staged: table.has("stage"),
+            speed: table.numbers("closing_speed_m_s")?,
+            stages: Stage::read(&table, &source.path)?,
         })
     }
 }
@@ -255,9 +274,9 @@ fn shade(run: usize, converged: bool) -> RGBAColor {
 /// How far the clamp of a run had gone in the middles of its steps, m.
 fn travel(source: &Labelled) -> Result<Vec<f64>, Error> {
     let table = Table::read(&source.path)?;
-    let (steps, speed) = (table.data("dt_s")?, table.data("closing_speed_m_s")?);
+    let (steps, speed) = (table.numbers("dt_s")?, table.numbers("closing_speed_m_s")?);
     let steps = steps.iter().zip(speed);
-    let ends = table.data("displacement_m")?.into_iter();
+    let ends = table.numbers("displacement_m")?.into_iter();
     let middles = ends.zip(steps).map(|(s, (dt, v))| s - 0.5 * dt * v);
     Ok(middles.collect())
 }
@@ -273,7 +292,7 @@ pub fn time_unit(last: f64) -> (f64, &'static str) {
 
 /// At most four points per logical pixel column, keeping the extremes, so that noise keeps
 /// its height and an SVG of 100 000 steps stays small.
-pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
+fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     let mut column: Vec<Point> = Vec::new();
     let mut flush = |column: &mut Vec<Point>| {
@@ -291,15 +310,11 @@ pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
         column.clear();
     };
     for point in points {
-        let gap = !(point[0].is_finite() && point[1].is_finite());
         let begins = |first: &Point| first[0].floor() != point[0].floor();
-        if gap || column.first().is_some_and(begins) {
+        if column.first().is_some_and(begins) {
             flush(&mut column);
         }
         column.push(point);
-        if gap {
-            flush(&mut column);
-        }
     }
     flush(&mut column);
     kept
@@ -310,7 +325,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thinning_keeps_extremes_ends_and_gaps() {
+    fn thinning_keeps_extremes_and_ends() {
         let noise = |i: usize| if i == 517 { 99.0 } else { (i % 7) as f64 };
         let points: Vec<Point> = (0..1000).map(|i| [i as f64 * 0.01, noise(i)]).collect();
         let kept = thinned(points.iter().copied());
@@ -318,7 +333,5 @@ mod tests {
         assert!(kept.iter().any(|p| p[1] == 99.0));
         assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[999]));
         assert!(kept.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
-        let gap = [[0.1, 1.0], [0.2, f64::NAN], [0.3, 1.0]];
-        assert_eq!(thinned(gap.into_iter()).len(), 3);
     }
 }

@@ -87,7 +87,8 @@ impl Known {
             let number = |what: &str| {
                 let column = format!("{}{what}_{}", q.column[0], q.column[1]);
                 match row.filter(|_| table.has(&column)) {
-                    Some(row) => table.numbers(&column).map(|n| q.factor * n[row]),
+                    // A side without adhesive has no WP.
+                    Some(row) => (table.numbers_but(&column, |_| true)).map(|n| q.factor * n[row]),
                     None => Ok(f64::NAN),
                 }
             };
@@ -136,17 +137,32 @@ impl Known {
 
 /// The largest pressure of the press of a `resolved.toml` of this text, MPa; NaN where it has none.
 pub fn pressure_limit(resolved: &str) -> f64 {
-    let case: toml::Table = resolved.parse().unwrap_or_default();
     let mpa = |table: &Value, key: &str| {
         let pressure: units::Quantity<Pressure> = table.get(key)?.as_str()?.parse().ok()?;
         Some(1e-6 * pressure.si())
     };
-    let clamp = case.get("clamp");
-    let stages = clamp.and_then(|clamp| clamp.get("stage")?.as_array());
-    let stages = stages.into_iter().flatten();
-    let stages = stages.filter_map(|stage| mpa(stage, "pressure"));
-    let limit = clamp.and_then(|clamp| mpa(clamp, "max_pressure"));
-    limit.into_iter().chain(stages).fold(f64::NAN, f64::max)
+    let clamp = clamp(resolved);
+    let pressures = stages(&clamp).filter_map(|stage| mpa(stage, "pressure"));
+    let limit = mpa(&clamp, "max_pressure");
+    limit.into_iter().chain(pressures).fold(f64::NAN, f64::max)
+}
+
+/// The kinds of the stages of its programme.
+pub(crate) fn stage_kinds(resolved: &str) -> Vec<String> {
+    let clamp = clamp(resolved);
+    let kinds = stages(&clamp).filter_map(|stage| stage.get("kind")?.as_str());
+    kinds.map(str::to_owned).collect()
+}
+
+/// Its press; nothing in it where it has none.
+fn clamp(resolved: &str) -> Value {
+    let mut case: toml::Table = resolved.parse().unwrap_or_default();
+    case.remove("clamp").unwrap_or(toml::Table::new().into())
+}
+
+fn stages(clamp: &Value) -> impl Iterator<Item = &Value> {
+    let stages = clamp.get("stage").and_then(Value::as_array);
+    stages.into_iter().flatten()
 }
 
 /// A number with so many decimals, or as it takes for a digit that is not zero.

@@ -43,11 +43,11 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
     };
     let mut times = Vec::new();
     for table in &tables {
-        times.extend(table.data("time_s")?.into_iter().filter(|t| *t > 0.0));
+        times.extend(table.numbers("time_s")?.into_iter().filter(|t| *t > 0.0));
     }
     let (first, last) = extent(times.into_iter());
     let (unit, name) = time_unit(last);
-    let mut plot = Plot::new(title, &format!("time ({name})"), axis);
+    let mut plot = Plot::new(&titled(title, runs), &format!("time ({name})"), axis);
     if last > LONG * first {
         plot = plot.decades();
     }
@@ -64,11 +64,19 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
         }
         let states = table.texts("bond_line")?;
         if let Some(row) = states.iter().position(|state| *state != "filled") {
-            let at = [table.data("time_s")?[row] / unit, 0.0];
+            let at = [table.numbers("time_s")?[row] / unit, 0.0];
             plot = plot.with(&format!("{own}{}", states[row]), Mark::Dots, vec![at]);
         }
     }
     Ok(plot)
+}
+
+/// A title, with the label of a single run, which no line has.
+fn titled(title: &str, runs: &[Labelled]) -> String {
+    match runs {
+        [run] => format!("{title}, {}", run.label),
+        _ => title.into(),
+    }
 }
 
 /// A quantity of one side over time, in `unit` (s); what is at no time has no logarithm.
@@ -79,16 +87,20 @@ fn course(
     of: &str,
     unit: f64,
 ) -> Result<Vec<[f64; 2]>, Error> {
-    let times = table.data("time_s")?;
+    let times = table.numbers("time_s")?;
+    // A side without adhesive has no depth.
+    let of_one = |side: &str| quantity != WETTED[0] && side != "total";
     // A series has a row for each side, a history a column.
     let (sides, values) = match table.has("side") {
-        true => (
-            table.texts("side")?,
-            table.data(&format!("{quantity}_{of}"))?,
-        ),
+        true => {
+            let (sides, column) = (table.texts("side")?, format!("{quantity}_{of}"));
+            let values = table.numbers_but(&column, |row| of_one(sides[row]))?;
+            (sides, values)
+        }
         false => {
             let column = |side: &str| format!("{quantity}_{side}_{of}");
-            (vec![side; times.len()], of_history(table, side, column)?)
+            let values = of_history(table, side, column, of_one(side))?;
+            (vec![side; times.len()], values)
         }
     };
     let rows = (0..sides.len()).filter(|&row| sides[row] == side && times[row] > 0.0);
@@ -107,6 +119,7 @@ fn of_history(
     table: &Table,
     side: &str,
     column: impl Fn(&str) -> String,
+    may_lack: bool,
 ) -> Result<Vec<f64>, Error> {
     if !table.has(&column("bottom")) {
         return Err(Error::Data(format!(
@@ -116,20 +129,25 @@ fn of_history(
         )));
     }
     if side == "total" && !table.has(&column(side)) {
-        let [bottom, top] = [table.data(&column("bottom"))?, table.data(&column("top"))?];
+        let [bottom, top] = [
+            table.numbers(&column("bottom"))?,
+            table.numbers(&column("top"))?,
+        ];
         return Ok(bottom.iter().zip(&top).map(|(b, t)| b + t).collect());
     }
-    table.data(&column(side))
+    table.numbers_but(&column(side), |_| may_lack)
 }
 
 /// The filled share of open lumens against depth: of one run at some of its times, of several at their last.
 fn filled(runs: &[Labelled], tables: &[Table]) -> Result<Plot, Error> {
-    let title = "depth from the middle of the bond line (µm), bottom negative";
-    let mut plot = Plot::new("Filled share of the open lumens", title, "filled share");
+    let depth = "depth from the middle of the bond line (µm), bottom negative";
+    let title = titled("Filled share of the open lumens", runs);
+    let mut plot = Plot::new(&title, depth, "filled share");
     for (run, table) in runs.iter().zip(tables) {
-        let (depths, shares) = (table.data("depth_um")?, table.data("filled_open_fraction")?);
+        let depths = table.numbers("depth_um")?;
+        let shares = table.numbers_but("filled_open_fraction", |_| true)?;
         let times = match table.has("time_s") {
-            true => table.data("time_s")?,
+            true => table.numbers("time_s")?,
             false => vec![0.0; depths.len()],
         };
         let mut told = times.clone();

@@ -15,7 +15,10 @@ pub fn pores(tables: &[Labelled]) -> Result<Plot, Error> {
     for named in tables {
         let table = Table::read(&named.path)?;
         let files = table.texts("file")?;
-        let (diameters, up_to) = (table.data("diameter_um")?, table.data("up_to_fraction")?);
+        let (diameters, up_to) = (
+            table.numbers("diameter_um")?,
+            table.numbers("up_to_fraction")?,
+        );
         let mut specimens = files.clone();
         specimens.dedup();
         for specimen in &specimens {

@@ -57,17 +57,17 @@ pub fn response(
 impl Sweep {
     fn read(sweep: &Labelled, result: &str, error: Option<f64>) -> Result<Self, Error> {
         let table = Table::read(&sweep.path)?;
-        let values = table.data(result)?;
+        // A run that failed or is not sound has no results.
+        let status = table.texts(FIRST_RESULT)?;
+        let numbers = |name: &str| table.some_numbers(name, |row| status[row] != "sound");
+        let values = numbers(result)?;
         let rows = values.len();
         let mut results = vec![Outcome::new(result, values, error)];
         for name in BESIDE
             .into_iter()
             .filter(|name| *name != result && table.has(name))
         {
-            let values = table.numbers(name)?;
-            if values.iter().any(|value| value.is_finite()) {
-                results.push(Outcome::new(name, values, None));
-            }
+            results.push(Outcome::new(name, numbers(name)?, None));
         }
         let ends = match table.has("end") {
             true => table.texts("end")?,
@@ -77,7 +77,7 @@ impl Sweep {
         let mut words = vec![Vec::new(); rows];
         let inputs = table.before(FIRST_RESULT)?.into_iter();
         for name in inputs.filter(|name| *name != "row") {
-            match table.numbers(name) {
+            match table.numbers_but(name, |_| true) {
                 Ok(numbers) if varies(&numbers) => parameters.push((name.to_owned(), numbers)),
                 // The words of a row that say something.
                 _ => (words.iter_mut().zip(table.texts(name)?))

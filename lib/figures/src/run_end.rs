@@ -1,18 +1,18 @@
 //! How the run of a file ended, as the summary of its folder has it.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use particle_file::RUN_MARK;
 use serde_json::Value;
 
 use crate::closing::time_unit;
+use crate::command_line::{self, again};
 use crate::{Error, Labelled};
 
-/// Marks a folder as a run's.
-const MARK: &str = "bondline-run.toml";
 const SUMMARY: &str = "summary.json";
-pub(crate) const RESOLVED: &str = "resolved.toml";
+const RESOLVED: &str = "resolved.toml";
 const MOST_BYTES: u64 = 1 << 20;
 /// Share of the gap below which a press is closed.
 const CLOSED: f64 = 1e-3;
@@ -51,21 +51,33 @@ impl RunEnd {
         let Some([path, _]) = read_beside(file) else {
             return Ok(None);
         };
-        let broken = |e: &dyn std::fmt::Display| {
-            Error::Data(format!("cannot read '{}': {e}", path.display()))
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::in_folder(folder).map(|(end, _)| Some(end))
+    }
+
+    /// The end of the run in `folder`, and its summary; null where there is none yet.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for a summary that cannot be read.
+    pub fn in_folder(folder: &Path) -> Result<(Self, Value), Error> {
+        let path = folder.join(SUMMARY);
+        let summary: Value = match small_text(&path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => Value::Null,
+            read => {
+                let summary = read.and_then(|text| serde_json::from_str(&text).map_err(Into::into));
+                summary
+                    .map_err(|e| Error::Data(format!("cannot read '{}': {e}", path.display())))?
+            }
         };
-        let mut text = Vec::new();
-        let summary =
-            match File::open(&path).and_then(|f| f.take(MOST_BYTES).read_to_end(&mut text)) {
-                Err(e) if e.kind() == ErrorKind::NotFound => Value::Null,
-                Err(e) => return Err(broken(&e)),
-                Ok(_) => serde_json::from_slice(&text).map_err(|e| broken(&e))?,
-            };
-        Ok(Some(Self::of(&summary)))
+        let mut end = Self::of(&summary);
+        if summary.is_null() {
+            end.command = command_line::of_states(folder).unwrap_or_default();
+        }
+        Ok((end, summary))
     }
 
     /// The end that a summary tells of; of no summary, that there is none yet.
-    pub fn of(summary: &Value) -> Self {
+    fn of(summary: &Value) -> Self {
         let number = |key| summary.get(key).and_then(Value::as_f64).unwrap_or(f64::NAN);
         let texts = |pointer: &str| -> Vec<String> {
             let found = summary.pointer(pointer).and_then(Value::as_array);
@@ -158,13 +170,13 @@ impl RunEnd {
         let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
-                let command = self.with("--resume", None);
+                let command = again(&self.command, "--resume", None);
                 format!("{mark}: mpm-run with --resume goes on{command}")
             }
             end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; "),
             "time-limit" => {
                 let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
-                let command = self.with("--overwrite", Some(&limit));
+                let command = again(&self.command, "--overwrite", Some(&limit));
                 format!(
                     "{open}: penetration of a press on its way. A longer press: --set \"{limit}\" (make: SET=\"{limit}\"){command}"
                 )
@@ -172,26 +184,27 @@ impl RunEnd {
             end => format!("{open} when the run ended ({end})"),
         })
     }
-
-    /// The command of the run again, with an option and a key.
-    fn with(&self, option: &str, key: Option<&str>) -> String {
-        let tool = self.command.first().map(|tool| Path::new(tool).file_name());
-        if tool != Some(Some("mpm-run".as_ref())) {
-            return String::new();
-        }
-        let kept = self.command.iter().map(String::as_str);
-        let kept = kept.filter(|word| !matches!(*word, "--resume" | "--overwrite"));
-        let set = key.into_iter().flat_map(|key| ["--set", key]);
-        let words: Vec<String> = kept.chain([option]).chain(set).map(quoted).collect();
-        format!(":\n    {}", words.join(" "))
-    }
 }
 
 /// What is read of the run whose folder `file` lies in: its summary and its case.
 pub fn read_beside(file: &Path) -> Option<[PathBuf; 2]> {
     let folder = file.parent()?;
     let read = || [SUMMARY, RESOLVED].map(|name| folder.join(name));
-    folder.join(MARK).is_file().then(read)
+    folder.join(RUN_MARK).is_file().then(read)
+}
+
+/// The case of the run whose folder `file` lies in, as it was run; nothing where it is not known.
+pub(crate) fn case_beside(file: &Path) -> String {
+    let read = |[_, case]: [PathBuf; 2]| small_text(&case).ok();
+    read_beside(file).and_then(read).unwrap_or_default()
+}
+
+/// The text of a record, of 1 MiB at most.
+pub(crate) fn small_text(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    let file = File::open(path)?;
+    file.take(MOST_BYTES).read_to_string(&mut text)?;
+    Ok(text)
 }
 
 impl Labelled {
@@ -220,15 +233,6 @@ fn time(seconds: f64) -> String {
     let digit = 10_f64.powf(count.log10().floor());
     let count = ((count / digit - 1e-9).ceil() * digit).round();
     format!("{count} {}", name.replace('µ', "u"))
-}
-
-/// A word for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 #[cfg(test)]
@@ -303,18 +307,6 @@ mod tests {
     }
 
     #[test]
-    fn times_are_rounded_up_to_a_digit() {
-        for (seconds, text) in [
-            (2.26e-4, "300 us"),
-            (9.1e-4, "1000 us"),
-            (0.03, "30 ms"),
-            (900.1, "1000 s"),
-        ] {
-            assert_eq!(time(seconds), text);
-        }
-    }
-
-    #[test]
     fn only_files_in_run_folders_are_marked() {
         let folder = tempfile::tempdir().unwrap();
         let write =
@@ -322,7 +314,7 @@ mod tests {
         let file = folder.path().join("wp.csv");
         write(SUMMARY, &summary("time-limit", 4.2e-6).to_string());
         assert_eq!(RunEnd::beside(&file).unwrap(), None);
-        write(MARK, "");
+        write(RUN_MARK, "");
         let label = "FLIP".to_owned();
         let path = file.clone();
         let marked = Labelled { label, path }.marked().unwrap();

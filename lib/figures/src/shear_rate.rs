@@ -106,8 +106,8 @@ fn sample(drawing: &mut Drawing, entry: usize, ends: [Point; 2]) {
 impl Panel {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
-        let quantiles = QUANTILES.iter().map(|q| table.data(q));
-        let max = table.data("max")?;
+        let quantiles = QUANTILES.iter().map(|q| table.numbers(q));
+        let max = table.numbers("max")?;
         if !max.iter().any(|rate| *rate > 0.0) {
             return Err(Error::Data(format!(
                 "'{}' has no shear rate above zero: nothing flows in these states",
@@ -116,7 +116,7 @@ impl Panel {
         }
         Ok(Self {
             label: source.label.clone(),
-            time: table.data("time_s")?,
+            time: table.numbers("time_s")?,
             quantiles: quantiles.collect::<Result<_, _>>()?,
             max,
         })
@@ -146,8 +146,7 @@ impl Panel {
         // whose upper end has one, the lower end lies on the edge.
         let places = |values: &[f64], shown: &[f64]| -> Vec<[f64; 2]> {
             let rows = times.clone().zip(values).zip(shown);
-            let rows =
-                rows.filter(|((t, v), shown)| t.is_finite() && v.is_finite() && **shown > 0.0);
+            let rows = rows.filter(|(_, shown)| **shown > 0.0);
             rows.map(|((t, v), _)| frame.place(&time, rate, [t, *v]))
                 .collect()
         };

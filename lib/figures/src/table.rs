@@ -83,17 +83,27 @@ impl Table {
         Ok(self.rows.iter().map(|row| &row[index]).collect())
     }
 
-    /// The numbers of a column; empty cells are NaN.
+    /// The numbers of a column, finite in every row.
     pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, Error> {
+        self.numbers_but(column, |_| false)
+    }
+
+    /// The numbers of a column that has none in rows which `may_lack` one: an empty cell or NaN there is NaN.
+    pub(crate) fn numbers_but(
+        &self,
+        column: &str,
+        may_lack: impl Fn(usize) -> bool,
+    ) -> Result<Vec<f64>, Error> {
         let number = |(row, cell): (usize, &str)| {
-            if cell.is_empty() {
-                return Ok(f64::NAN);
-            }
-            cell.parse().map_err(|_| {
+            let number = if cell.is_empty() { "NaN" } else { cell }.parse::<f64>();
+            let number = number
+                .ok()
+                .filter(|n| n.is_finite() || n.is_nan() && may_lack(row));
+            number.ok_or_else(|| {
+                let line = self.rows[row].position().map_or(0, csv::Position::line);
                 Error::Data(format!(
-                    "'{}', row {} below the header, column {column}: '{cell}' is not a number",
-                    self.name,
-                    row + 1
+                    "'{}', line {line}, column {column}: '{cell}' is not a finite number",
+                    self.name
                 ))
             })
         };
@@ -101,9 +111,13 @@ impl Table {
         cells.into_iter().enumerate().map(number).collect()
     }
 
-    /// As [`Table::numbers`], but the column must hold at least one finite number.
-    pub(crate) fn data(&self, column: &str) -> Result<Vec<f64>, Error> {
-        let numbers = self.numbers(column)?;
+    /// As [`Table::numbers_but`], but at least one row must hold a number.
+    pub(crate) fn some_numbers(
+        &self,
+        column: &str,
+        may_lack: impl Fn(usize) -> bool,
+    ) -> Result<Vec<f64>, Error> {
+        let numbers = self.numbers_but(column, may_lack)?;
         match numbers.iter().any(|n| n.is_finite()) {
             true => Ok(numbers),
             false => Err(Error::Data(format!(
@@ -135,10 +149,15 @@ mod tests {
     }
 
     #[test]
-    fn columns_go_by_name_and_gaps_are_nan() {
-        let table = table("# made by hand\na,b\n1,2\n3,\n").unwrap();
+    fn columns_go_by_name_and_cells_lack_numbers_only_where_they_may() {
+        let table = table("# made by hand\na,b,c\n1,2,inf\n3,,nan\n").unwrap();
         assert_eq!(table.numbers("a").unwrap(), [1.0, 3.0]);
-        let b = table.data("b").unwrap();
+        let b = table.some_numbers("b", |row| row == 1).unwrap();
         assert!(b[0] == 2.0 && b[1].is_nan());
+        let said = |found: Result<Vec<f64>, Error>| found.unwrap_err().to_string();
+        let empty = "'t.csv', line 4, column b: '' is not a finite number";
+        assert_eq!(said(table.numbers("b")), empty);
+        let infinite = "'t.csv', line 3, column c: 'inf' is not a finite number";
+        assert_eq!(said(table.numbers_but("c", |_| true)), infinite);
     }
 }

@@ -1,14 +1,13 @@
 //! Table 2 of the paper.
 
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use particle_file::ParticleFile;
 use serde_json::Value;
 
 use crate::known::{SIDES, pressure_limit};
-use crate::run_end::RESOLVED;
+use crate::run_end::{case_beside, small_text};
 use crate::table::Table;
 use crate::{Error, Known, RunEnd};
 
@@ -89,8 +88,6 @@ const COLUMNS: &str = "adhesive,case,reference,bottom_wp_um,top_wp_um,total_wp_u
 const NOTE: &str = "paper: the paper's specimen, not this one";
 /// The state that a run ends with.
 const FINAL: &str = "final.mpts";
-/// Most bytes of a record beside a table.
-const MOST_BYTES: u64 = 1 << 20;
 /// What the numbers are, in the table for reading.
 pub const ERRORS: &str = "with \u{b1}: extrapolated to zero cell size (first order); error: the difference of two sizes \
     of cells, of the total at least sqrt(bottom^2 + top^2)/2 of the sides' errors";
@@ -212,7 +209,6 @@ impl Row {
             )));
         }
         let (sides, references) = (table.texts("side")?, table.texts("reference")?);
-        table.numbers("wp_um")?;
         let slabs = table.numbers("slab_wp_um")?;
         let mut total = 0;
         for side in SIDES {
@@ -220,6 +216,7 @@ impl Row {
             let missing = || Error::Data(format!("'{}' has no row with side {side}", table.name()));
             total = row.ok_or_else(missing)?;
         }
+        table.numbers_but("wp_um", |row| row != total)?;
         // It goes into our own table, which people open in a spreadsheet.
         if !REFERENCES.contains(&references[total]) {
             return Err(Error::Data(format!(
@@ -266,12 +263,7 @@ fn end(table: &Path, named: &str) -> Result<Option<(RunEnd, f64)>, Error> {
     for place in [table, state] {
         if let Some(end) = RunEnd::beside(place)? {
             is_of(table, named, &place.with_file_name(FINAL))?;
-            let mut case = String::new();
-            let file = File::open(place.with_file_name(RESOLVED));
-            // Without its case the limit is not known.
-            let read = file.and_then(|file| file.take(MOST_BYTES).read_to_string(&mut case));
-            let limit = read.map_or(f64::NAN, |_| pressure_limit(&case));
-            return Ok(Some((end, limit)));
+            return Ok(Some((end, pressure_limit(&case_beside(place)))));
         }
     }
     Ok(None)
@@ -298,10 +290,7 @@ fn is_of(table: &Path, named: &str, state: &Path) -> Result<(), Error> {
 fn recorded(table: &Path, named: &str) -> Option<String> {
     let mut record = table.to_owned().into_os_string();
     record.push(".provenance.json");
-    let mut text = Vec::new();
-    let file = File::open(record).ok()?;
-    file.take(MOST_BYTES).read_to_end(&mut text).ok()?;
-    let record: Value = serde_json::from_slice(&text).ok()?;
+    let record: Value = serde_json::from_str(&small_text(record.as_ref()).ok()?).ok()?;
     let mut inputs = record.get("inputs")?.as_array()?.iter();
     let input = inputs.find(|input| input["path"] == named)?;
     input["xxh3"].as_str().map(str::to_owned)

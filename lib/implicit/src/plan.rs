@@ -91,11 +91,9 @@ fn stages(scene: &Scene) -> Stages {
     let gains = scene.clamp.and_then(|clamp| clamp.pid);
     let no_pid = match (list.has(Stages::LOAD), gains) {
         (true, Some(_)) => None,
-        (true, None) => Some("no pid: the limit is an equation of the solve"),
+        (true, None) => Some("no pid: each step is solved for the speed that keeps the limit"),
         (false, _) => Some("no pressure limit"),
     };
-    list.and("PID", no_pid.map(str::to_owned)).and(
-        "shear rate between snapshots",
-        Some("known where a state is written or the viscosity depends on it".into()),
-    )
+    let shear = "not known between states that are written, unless the viscosity depends on it";
+    (list.and("PID", no_pid.map(str::to_owned))).and("shear rate", Some(shear.into()))
 }

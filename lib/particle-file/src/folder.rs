@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 
 use crate::{Error, ParticleFile};
 
+/// Marks a folder as a run's.
+pub const RUN_MARK: &str = "bondline-run.toml";
+
 /// The particle files in a folder, by name; none where there is no such folder. Hidden ones are passed over.
 pub fn in_folder(folder: &Path) -> Vec<PathBuf> {
     let list = fs::read_dir(folder).into_iter().flatten();
@@ -24,11 +27,27 @@ pub fn states_of_run(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     states.extend(Some(folder.join("final.mpts")).filter(|path| path.is_file()));
     match states.is_empty() {
         false => Ok(states),
-        true => Err(Error::new(
-            folder.display().to_string(),
-            "holds no state of a run: snapshots/*.mpts or final.mpts is needed",
-        )),
+        true => Err(lacks(folder, "state (snapshots/*.mpts, final.mpts)")),
     }
+}
+
+/// The file `name` in the folder of a run.
+pub fn file_of_run(folder: &Path, name: &str) -> Result<PathBuf, Error> {
+    let path = folder.join(name);
+    match path.exists() {
+        true => Ok(path),
+        false => Err(lacks(folder, name)),
+    }
+}
+
+/// Of a folder given as a run's that has not `what` every run has.
+fn lacks(folder: &Path, what: &str) -> Error {
+    let why = match (folder.join(RUN_MARK).is_file(), folder.is_dir()) {
+        (true, _) => format!("is the folder of a run that has written no {what} yet"),
+        (_, true) => format!("is not a run folder of mpm-run: it has no {what}"),
+        _ => "is not a run folder of mpm-run: there is no such folder".into(),
+    };
+    Error::new(folder.display().to_string(), why)
 }
 
 /// Particle files in order of their times, one of each: the last snapshot may be the final state.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use figures::{Known, RunEnd, Table, fixed, pressure_limit, time_unit};
-use particle_file::ParticleFile;
+use particle_file::{ParticleFile, file_of_run};
 use serde_json::Value;
 
 use crate::setup::Setup;
@@ -41,13 +41,9 @@ impl RunFolder {
     /// # Errors
     /// A folder without `resolved.toml`, or files that are not a run's.
     pub fn read(folder: &Labelled) -> Result<Self, Error> {
-        let path = folder.path.join("summary.json");
-        let summary: Value = match path.try_exists() {
-            Ok(false) => Value::Null,
-            _ => serde_json::from_str(&read_text(&path, MOST_BYTES)?)
-                .map_err(|e| Error::Data(format!("'{}' is not JSON: {e}", path.display())))?,
-        };
-        let resolved = read_text(&folder.path.join("resolved.toml"), MOST_BYTES)?;
+        let case = file_of_run(&folder.path, "resolved.toml")?;
+        let (end, summary) = RunEnd::in_folder(&folder.path)?;
+        let resolved = read_text(&case, MOST_BYTES)?;
         let case = summary.pointer("/provenance/inputs/0/path");
         let case = Path::new(case.and_then(Value::as_str).unwrap_or("case"));
         let case = case.file_name().unwrap_or_default().to_string_lossy();
@@ -83,7 +79,7 @@ impl RunFolder {
                 ];
                 doubts.into_iter().flatten().collect()
             }),
-            end: RunEnd::of(&summary),
+            end,
             setup: Setup::read(&folder.path, &case, &resolved),
             wp,
             pressure,
@@ -189,7 +185,7 @@ impl RunFolder {
         let across = self.number("/expected_error/cells_per_lumen", 1.0, 1);
         let Some(cells) = expected.get("measured_with_cells").and_then(Value::as_f64) else {
             return format!(
-                "<p>Not measured with this update, shape and options; lumens of 17.4 um, not this specimen's, are {across} cells across.</p>\n"
+                "<p>Not measured with this update, shape and options; a lumen of 17.4 um is {across} cells across.</p>\n"
             );
         };
         let list = self.list("/expected_error/errors");
@@ -211,7 +207,7 @@ impl RunFolder {
             &errors,
         ) + &lumens.collect::<String>()
             + &format!(
-                "<p>Lumens of 17.4 um, not this specimen's, are {across} cells across here and {cells} in the measurement, walls off the nodes among them: slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference.{}</p>\n",
+                "<p>A lumen of 17.4 um is {across} cells across here and {cells} in the measurement, some walls between nodes. A slit was measured against finite elements, a bond line against finer runs of the implicit scheme alone.{}</p>\n",
                 html::escape(&others)
             )
     }

@@ -40,18 +40,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cases_that_differ_in_the_courant_number_alone_are_one_run() {
-        let text = |cfl: &str, order: u8| {
-            format!(
-                "[grid]\ncell = \"1 um\"\n[integrator]\n{cfl}scheme = \"explicit\"\norder = {order}\n"
-            )
-        };
-        let plain = without_cfl(&text("", 2));
-        assert_eq!(plain, without_cfl(&text("cfl = 0.7\n", 2)));
-        assert_ne!(plain, without_cfl(&text("cfl = 0.7\n", 3)));
-    }
-
-    #[test]
     fn the_record_holds_a_change_once_and_not_those_that_took_no_step() {
         let at = |after_step, cfl| Courant { after_step, cfl };
         let begun = continued(Vec::new(), 0, 1.0);

@@ -9,6 +9,7 @@ use same_file::is_same_file;
 
 use crate::checkpoint::{self, Checkpoint, Origin};
 use crate::clock::Clock;
+use crate::courant::without_cfl;
 use crate::failure::RunFailure;
 use crate::files::is_there;
 use crate::folder::{
@@ -39,7 +40,9 @@ pub(crate) fn checkpoint(
     if !mode.resume || is_there(&folder.place(FINAL)) {
         return Ok(None);
     }
-    match checkpoint::read(folder.path(), origin, &|| changed(folder, text)) {
+    match checkpoint::read(folder.path(), origin, &|| {
+        changed(folder, text, without_cfl)
+    }) {
         Ok(Some(checkpoint)) => {
             prove_snapshots(folder, checkpoint.clock.snapshots, &origin.by)?;
             folder.check_writable(&replaced(folder, checkpoint.clock.snapshots)?)?;
@@ -65,33 +68,37 @@ pub(crate) fn anew(
     let again = mode.resume && !holds(FINAL) && begun();
     let lost = [HISTORY, FINAL, CHECKPOINT].into_iter().any(holds);
     if lost && !mode.overwrite && !again {
-        return Err(held_by_a_run(folder.path(), mode.resume));
+        return Err(held_by_a_run(folder, mode.resume, text));
     }
     clear(folder, by)?;
     folder.write_text(RESOLVED, text)?;
     Ok(())
 }
 
-/// What of the case is not as it was when the folder's run began; nothing where that is not known.
-fn changed(folder: &RunFolder, text: &str) -> String {
-    let was = fs::read_to_string(folder.place(RESOLVED));
-    let changed = was.map_or_else(|_| Vec::new(), |was| resolved::differences(text, &was));
+/// What of the part of the case that counts is not as it was when the folder's run began; nothing where that is not known.
+fn changed(folder: &RunFolder, text: &str, part: fn(&str) -> String) -> String {
+    let Ok(was) = fs::read_to_string(folder.place(RESOLVED)) else {
+        return String::new();
+    };
+    let changed = resolved::differences([text, &was], part);
     match changed.is_empty() {
         true => String::new(),
         false => format!(" ({})", changed.join("; ")),
     }
 }
 
-fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {
-    let folder = folder.display();
-    RunFailure::Usage(if resume {
-        format!(
-            "'{folder}' holds another run: of another case, bond or version, or ended at another integrator.cfl; use --overwrite to replace it"
-        )
-    } else {
-        format!(
-            "'{folder}' already holds a run; use --resume to continue it or --overwrite to replace it"
-        )
+fn held_by_a_run(folder: &RunFolder, resume: bool, text: &str) -> RunFailure {
+    let name = folder.path().display();
+    RunFailure::Usage(match (resume, changed(folder, text, str::to_owned)) {
+        (false, _) => format!(
+            "'{name}' already holds a run; use --resume to continue it or --overwrite to replace it"
+        ),
+        (true, same) if same.is_empty() => format!(
+            "'{name}' holds another run, of another bond or version or of a case file in other words; use --overwrite to replace it"
+        ),
+        (true, changed) => {
+            format!("'{name}' holds another run{changed}; use --overwrite to replace it")
+        }
     })
 }
 
@@ -239,28 +246,4 @@ fn in_the_way(path: &Path, what: &str) -> RunFailure {
         "'{}' is {what} and stands where the run writes: move it away or name another run folder",
         path.display()
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::folder::tests::held;
-
-    #[test]
-    fn snapshots_are_named_from_a_number_on_and_a_folder_that_cannot_be_read_is_no_empty_one() {
-        let (place, folder) = held();
-        let listed = |first| snapshots(&folder, first);
-        assert!(listed(0).unwrap().is_empty(), "no folder, no snapshots");
-        folder.make_snapshots().unwrap();
-        for name in ["0000.mpts", "0007.mpts", "12345.mpts", "7.mpts", "0008.npy"] {
-            fs::write(place.path().join(SNAPSHOTS).join(name), "").unwrap();
-        }
-        assert_eq!(
-            listed(7).unwrap(),
-            ["snapshots/0007.mpts", "snapshots/12345.mpts"]
-        );
-        fs::remove_dir_all(place.path().join(SNAPSHOTS)).unwrap();
-        fs::write(place.path().join(SNAPSHOTS), "theirs").unwrap();
-        assert!(listed(0).is_err());
-    }
 }

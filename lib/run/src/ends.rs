@@ -133,38 +133,22 @@ mod tests {
     #[test]
     fn a_clamp_with_a_limit_closes_at_the_earliest_and_ends_at_its_time_limit_at_the_latest() {
         let mut setup = setup();
-        let clamp = |max_pressure| Clamp {
-            closing_speed: 1.0,
-            max_pressure,
-            pid: None,
-        };
-        setup.scene.stop = Stop::Closed { travel_m: 4e-6 };
-        setup.time_limit_s = 8e-6;
         let clock = Clock {
             time_s: 2e-6,
             travel_m: 1e-6,
             ..Clock::default()
         };
-        let mut ahead = |clamp, limit_s| {
-            setup.scene.clamp = Some(clamp);
-            setup.time_limit_s = limit_s;
+        let mut ahead = |max_pressure, stop, limit_s, programme| {
+            setup.scene.clamp = Some(Clamp {
+                closing_speed: 1.0,
+                max_pressure,
+                pid: None,
+            });
+            (setup.scene.stop, setup.time_limit_s) = (stop, limit_s);
+            setup.scene.programme = programme;
             Ends::of(&setup).ahead(&clock)
         };
-        let limit = ("of the time limit, {} left at most", 0.25);
-        assert_eq!(
-            ahead(clamp(Some(1e6)), 8e-6),
-            [("closed, {} left at least", 0.25), limit]
-        );
-        assert_eq!(ahead(clamp(None), 8e-6), [("closed, {} left", 0.25)]);
-        assert_eq!(ahead(clamp(None), 3e-6)[0].1, 2.0 / 3.0);
-        setup.scene.stop = Stop::Time(8e-6);
-        setup.time_limit_s = 8e-6;
-        assert_eq!(
-            Ends::of(&setup).ahead(&clock),
-            [("of the time, {} left", 0.25)]
-        );
-        setup.scene.stop = Stop::Closed { travel_m: 4e-6 };
-        setup.scene.programme = vec![PressStage {
+        let hold = PressStage {
             kind: Press::Hold,
             speed: 1.0,
             pressure: None,
@@ -172,8 +156,20 @@ mod tests {
             travel_m: None,
             slower: None,
             time_s: 8e-6,
-        }];
-        let told = Ends::of(&setup).ahead(&clock);
+        };
+        let (closed, limit) = (
+            Stop::Closed { travel_m: 4e-6 },
+            "of the time limit, {} left at most",
+        );
+        let held = ahead(Some(1e6), closed, 8e-6, Vec::new());
+        assert_eq!(held, [("closed, {} left at least", 0.25), (limit, 0.25)]);
+        let free = ahead(None, closed, 8e-6, Vec::new());
+        assert_eq!(free, [("closed, {} left", 0.25)]);
+        let slow = ahead(None, closed, 3e-6, Vec::new());
+        assert_eq!(slow, [(limit, 2.0 / 3.0)]);
+        let timed = ahead(None, Stop::Time(8e-6), 8e-6, Vec::new());
+        assert_eq!(timed, [("of the time, {} left", 0.25)]);
+        let told = ahead(None, closed, 8e-6, vec![hold]);
         assert_eq!(told, [("of the programme's time", 0.25)]);
     }
 }

@@ -98,8 +98,7 @@ pub(crate) fn text(case: &Case, cell_m: f64) -> String {
     let expected = of(case, cell_m);
     let across = expected.cells_per_lumen;
     let mut out = "\nerror to expect (measured, docs/results/tradeoff.md)\n".to_owned();
-    let lumens = format!("of 17.4 um, not this specimen's: {across:.1} cells across");
-    out += &line("lumens", lumens);
+    out += &line("lumen of 17.4 um", format!("{across:.1} cells across"));
     let Some(cells) = expected.measured_with_cells else {
         let not = "not measured with this update, shape and options";
         return out + &line("pressure, flow", not);
@@ -112,15 +111,13 @@ pub(crate) fn text(case: &Case, cell_m: f64) -> String {
         });
         out += &line(errors[0].quantity, measured.collect::<Vec<_>>().join(", "));
     }
-    let walls = format!("{cells} cells across the lumen, walls off the nodes among them");
+    let walls = format!("{cells} cells across that lumen, some walls between nodes");
     out += &line("measured with", walls);
-    out += &line(
-        "",
-        "slit against finite elements; bond line against finer runs of an implicit scheme, no independent reference",
-    );
+    let against = "a slit, against finite elements; a bond line, against finer runs of the implicit scheme alone";
+    out += &line("measured in", against);
     match expected.not_as_measured.join(", ") {
         none if none.is_empty() => out,
-        other => out + &line("", format!("and the default {other}")),
+        other => out + &line("", format!("both with the default {other}")),
     }
 }
 

@@ -110,7 +110,7 @@ fn wetted(wetting: &Wetting, cell_m: f64) -> String {
         false => "held back",
     };
     format!(
-        "{:.4} N/m at {:.1} degrees: it is {way} with {:.3e} Pa in a slit of six cells",
+        "{:.4} N/m at {:.1} degrees: {way} with {:.3e} Pa in a slit of six cells",
         wetting.tension,
         wetting.contact_angle.to_degrees(),
         (2.0 * wetting.adhesion() / (6.0 * cell_m)).abs()
@@ -123,7 +123,7 @@ fn dried(water: &Water, cell_m: f64) -> String {
     let [start, least] = [water.start(), water.least()];
     let leaves = (start - least) / (1.0 + start);
     format!(
-        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest dries to that in {:.3e} s, water from its middle reaches its wall in {:.1e} s",
+        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest dries so far in {:.3e} s, diffusion to its wall takes {:.1e} s",
         100.0 * water.solids(start),
         100.0 * water.solids(least),
         water.factor(least),
@@ -182,7 +182,7 @@ fn end(setup: &Setup) -> String {
 /// A stage of a press programme.
 fn told(index: usize, stage: &PressStage) -> String {
     let mut said = format!(
-        "{}, clamp.stage.{index} for --set, at most {:.4e} m/s",
+        "{} (--set clamp.stage.{index}...), at most {:.4e} m/s",
         stage.kind.name(),
         stage.speed
     );
@@ -203,7 +203,7 @@ fn told(index: usize, stage: &PressStage) -> String {
     if let Some(slower) = stage.slower {
         said += &format!(", until slower than {slower:.4e} m/s");
     }
-    said + &format!(", {:.4e} s at the longest", stage.time_s)
+    said + &format!(", for at most {:.4e} s", stage.time_s)
 }
 
 fn cost(setup: &Setup, forecast: &Forecast) -> String {
@@ -243,7 +243,7 @@ fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
         false => String::new(),
     };
     [
-        format!("about {} to {end_s:.4e} s{held}", count(forecast.steps)),
+        format!("about {} until {end_s:.4e} s{held}", count(forecast.steps)),
         duration(forecast.steps * forecast.step_s),
     ]
 }

@@ -18,11 +18,11 @@ use std::fs::{self, File, Permissions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use particle_file::Provenance;
+use particle_file::{Provenance, RUN_MARK};
 
 use crate::failure::RunFailure;
 use crate::files::{is_still, is_there, sync_folder};
-use crate::folder_mark::{self, MARKER};
+use crate::folder_mark;
 
 /// The state a run ended with; once it is there, the run has ended.
 pub(crate) const FINAL: &str = "final.mpts";
@@ -71,7 +71,7 @@ impl RunFolder {
                 )));
             }
         }
-        if !is_there(&path.join(MARKER)) {
+        if !is_there(&path.join(RUN_MARK)) {
             return Ok(None);
         }
         Self::hold(path, by).map(Some)
@@ -87,12 +87,12 @@ impl RunFolder {
         ];
         let taken = names.iter().find(|name| is_there(&path.join(name)));
         // Another run may have marked it since; that one holds it or is said to be there.
-        if let Some(name) = taken.filter(|_| !is_there(&path.join(MARKER))) {
+        if let Some(name) = taken.filter(|_| !is_there(&path.join(RUN_MARK))) {
             return Err(RunFailure::Usage(format!(
                 "'{0}' holds '{name}' but is not marked as a run folder, so nothing in it is replaced or continued: \
                  name another folder, or, if it is a run of an earlier version, create an empty file '{1}' and use --overwrite",
                 path.display(),
-                path.join(MARKER).display(),
+                path.join(RUN_MARK).display(),
             )));
         }
         let held = Self::hold(path, by)?;
@@ -105,7 +105,7 @@ impl RunFolder {
 
     /// Opens and locks the marker and completes one that is empty or cut off.
     fn hold(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
-        let place = path.join(MARKER);
+        let place = path.join(RUN_MARK);
         if fs::symlink_metadata(&place).is_ok_and(|found| !found.is_file()) {
             return Err(folder_mark::unknown(&place));
         }
@@ -166,7 +166,7 @@ impl RunFolder {
         let path = self.place(name);
         let within = path.parent().unwrap_or(&self.path);
         let aside = within.join(ASIDE);
-        let place = self.place(MARKER);
+        let place = self.place(RUN_MARK);
         is_still(&self.marker, &place).map_err(RunFailure::write(&place))?;
         let replaced = machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
         // A new file, so that nothing is written through a link.
@@ -285,8 +285,8 @@ pub(crate) mod tests {
     fn a_folder_that_was_replaced_is_not_written_into() {
         let (place, folder) = held();
         folder.write_text(SUMMARY, "1").unwrap();
-        fs::remove_file(place.path().join(MARKER)).unwrap();
-        fs::write(place.path().join(MARKER), "").unwrap();
+        fs::remove_file(place.path().join(RUN_MARK)).unwrap();
+        fs::write(place.path().join(RUN_MARK), "").unwrap();
         let said = folder.write_text(SUMMARY, "2").unwrap_err().to_string();
         let why = "bondline-run.toml: it was removed or replaced";
         assert!(said.contains(why), "{said}");

@@ -9,9 +9,6 @@ use serde::Deserialize;
 
 use crate::failure::RunFailure;
 
-/// Its name. A run holds the lock of this file.
-pub(crate) const MARKER: &str = "bondline-run.toml";
-
 /// Layout of a run folder.
 const FORMAT: u32 = 1;
 
@@ -61,13 +58,15 @@ pub(crate) fn unknown(place: &Path) -> RunFailure {
 mod tests {
     use std::fs;
 
+    use particle_file::RUN_MARK;
+
     use super::*;
     use crate::folder::tests::by;
 
     #[test]
     fn a_mark_cut_off_is_filled_in_and_another_file_is_left_alone() {
         let folder = tempfile::tempdir().unwrap();
-        let place = folder.path().join(MARKER);
+        let place = folder.path().join(RUN_MARK);
         let opened = |content: &str, version: &str| {
             fs::write(&place, content).unwrap();
             let mut file = File::options().read(true).write(true).open(&place).unwrap();

@@ -12,6 +12,7 @@ use crate::clock::Clock;
 use crate::failure::RunFailure;
 use crate::files::is_still;
 use crate::folder::{HISTORY, RunFolder};
+use crate::resolve::Setup;
 
 /// The columns, contract first, then what the two schemes add.
 const HEADER: &str = "step,time_s,dt_s,closing_speed_m_s,displacement_m,gap_m,pressure_bottom_Pa,\
@@ -24,19 +25,6 @@ const WET: &str = ",solids_content,water_in_walls_m3";
 
 /// What a press programme adds: the number of the stage that the step was of.
 const STAGE: &str = ",stage";
-
-/// What a row holds beside clock and diagnostics.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct RowMore {
-    /// Way of the clamp left, m.
-    pub(crate) gap_m: Option<f64>,
-    /// Factor of the viscosity of a liquid that cures.
-    pub(crate) factor: Option<f64>,
-    /// Number of the press programme's stage, from 1.
-    pub(crate) stage: Option<usize>,
-    /// What the press has come to.
-    pub(crate) moment: Option<Moment>,
-}
 
 /// How far a history went, and what it then held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -127,15 +115,19 @@ impl History {
         })
     }
 
-    /// Appends a row. An unknown gap (no clamp) stays empty.
+    /// Appends a row of the run of `setup`, of a stage of its press programme (from 1), and what the press has come to. The gap
+    /// of a run without a clamp stays empty.
     pub(crate) fn row(
         &mut self,
+        setup: &Setup,
         clock: &Clock,
         diagnostics: &Diagnostics,
-        more: RowMore,
+        stage: Option<usize>,
+        moment: Option<Moment>,
     ) -> Result<(), RunFailure> {
         let last = &clock.last;
-        let gap = more.gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
+        let gap = setup.initial_gap_m.map(|gap| gap - clock.travel_m);
+        let gap = gap.map_or(String::new(), |gap| format!("{gap:.9e}"));
         let mut row = format!(
             "{},{:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}",
             clock.step,
@@ -153,10 +145,11 @@ impl History {
             last.iterations,
             diagnostics.capped_fraction,
         );
-        row.extend(more.factor.map(|factor| format!(",{factor:.9e}")));
+        let cure = setup.scene.liquid.cure.as_ref();
+        row.extend(cure.map(|cure| format!(",{:.9e}", cure.factor(clock.time_s))));
         row.extend((diagnostics.water).map(|w| format!(",{:.9e},{:.9e}", w.solids, w.in_walls_m3)));
-        row.extend(more.stage.map(|stage| format!(",{stage}")));
-        row.extend(more.moment.map(|moment| moment.fields()));
+        row.extend(stage.map(|stage| format!(",{stage}")));
+        row.extend(moment.map(|moment| moment.fields()));
         row.push('\n');
         self.file.write_all(row.as_bytes()).map_err(|error| {
             // Part of a row on a full disk is of no use; if it stays, --resume cuts it off.
@@ -208,7 +201,7 @@ mod tests {
                 step,
                 ..Clock::default()
             };
-            let row = history.row(&clock, &Diagnostics::default(), RowMore::default());
+            let row = history.row(&setup(), &clock, &Diagnostics::default(), None, None);
             row.unwrap();
         }
     }
@@ -235,17 +228,6 @@ mod tests {
         let steps: Vec<_> = rows.iter().map(|row| row[0]).collect();
         assert_eq!(steps, ["step", "1", "12", "13"]);
         assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
-    }
-
-    /// 314e630 went on and ended well, without a history.
-    #[test]
-    fn a_history_that_is_removed_meanwhile_is_noticed() {
-        let (_place, folder) = held();
-        let mut history = create(&folder);
-        fs::remove_file(folder.place(HISTORY)).unwrap();
-        add(&mut history, &[1]);
-        let said = history.sync().unwrap_err().to_string();
-        assert!(said.contains("history.csv: it was removed"), "{said}");
     }
 
     /// Bytes that are no text were said to be a failed write before.

@@ -1,13 +1,14 @@
 //! The end of a run: its last state judged and measured.
 
 use physics::{Cure, LiquidState, Scheme, StageTime};
+use serde_json::json;
 
 use crate::bond_measures::Watch;
 use crate::failure::RunFailure;
 use crate::invariants;
 use crate::resolve::Setup;
 use crate::snapshot::in_file_axes;
-use crate::summary::{self, Account, Stage, Summary};
+use crate::summary::{self, Account, Summary};
 use crate::time_loop::Outcome;
 use crate::verdict;
 
@@ -24,10 +25,7 @@ pub(crate) fn conclude(
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
     let programme = summary::programme(scheme.programme(), history);
-    let stage = |time: &StageTime| Stage {
-        name: time.name,
-        wall_s: time.wall_s,
-    };
+    let stage = |time: &StageTime| json!({ "name": time.name, "wall_s": time.wall_s });
     let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
     let (begun_m3, diagnostics) = (setup.liquid.volume_m3, outcome.diagnostics);

@@ -44,5 +44,5 @@ pub use failure::RunFailure;
 pub use invariants::Invariants;
 pub use left_out::Remark;
 pub use request::Request;
-pub use summary::{PressedStage, Stage, Summary};
+pub use summary::{PressedStage, Summary};
 pub use verdict::Verdict;

@@ -6,7 +6,6 @@ use physics::{Choice, Pid};
 use units::{Dimension, Length, Time};
 
 use crate::case::{Case, SchemeName, StopRule, Table, tables};
-use crate::courant::without_cfl;
 use crate::resolve::Setup;
 use crate::schemes;
 
@@ -113,10 +112,15 @@ fn corner(metres: [f64; 3]) -> String {
 }
 
 /// The first keys by which the case of one such text differs from that of another, with both values: so that a run that is not
-/// continued can say why. Defaults do not count, of which some follow from the bond, nor the key that may change; a list of tables
-/// counts as one key. None where a text is no case.
-pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
-    let (Some(is), Some(was)) = (given(is), given(was)) else {
+/// continued can say why. Defaults do not count, of which some follow from the bond, and of the rest only a `part`; a list of
+/// tables counts as one key. None where a text is no case.
+pub(crate) fn differences(texts: [&str; 2], part: fn(&str) -> String) -> Vec<String> {
+    let given = |text: &str| -> Option<toml::Value> {
+        let lines = text.lines().filter(|line| !line.ends_with(DEFAULT));
+        let text = part(&lines.collect::<Vec<_>>().join("\n"));
+        text.parse().ok().map(toml::Value::Table)
+    };
+    let [Some(is), Some(was)] = texts.map(given) else {
         return Vec::new();
     };
     let paths = tables().flat_map(|table| match table.repeated() {
@@ -133,13 +137,6 @@ pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
         })
         .take(TOLD)
         .collect()
-}
-
-/// What is given in such a text and may not change.
-fn given(text: &str) -> Option<toml::Value> {
-    let lines = text.lines().filter(|line| !line.ends_with(DEFAULT));
-    let text = without_cfl(&lines.collect::<Vec<_>>().join("\n"));
-    text.parse().ok().map(toml::Value::Table)
 }
 
 /// The value below `place` at a dotted path.

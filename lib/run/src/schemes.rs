@@ -226,6 +226,10 @@ fn implicit_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
         let said =
             format!("closed off at {kilopascals} kPa (absolute){leak}: a pressure for each pocket");
         notes += &line("trapped air", said);
+        // Hot presses and presses at 1 m/s there.
+        let longer =
+            "a step takes two to six times as long as the run time says (docs/results/press.md)";
+        notes += &line("", longer);
     }
     Forecast {
         dt_s: plan.dt_s,

@@ -62,7 +62,7 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub set_s: Option<f64>,
     /// Wall time per stage of a step, s.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<serde_json::Value>,
     /// How often the scheme had to step in.
     pub counts: BTreeMap<&'static str, u64>,
     /// Checks of the final state.
@@ -152,15 +152,6 @@ pub(crate) fn pressure(pascal: f64, digits: usize) -> String {
         small if small < 0.5 * last => format!("{:.0} Pa", pascal.round() + 0.0),
         _ => format!("{:.digits$} MPa", pascal / 1e6),
     }
-}
-
-/// Wall time of one stage.
-#[derive(Debug, Serialize)]
-pub struct Stage {
-    /// Name.
-    pub name: &'static str,
-    /// Seconds.
-    pub wall_s: f64,
 }
 
 /// What made a run folder, as a summary has it.

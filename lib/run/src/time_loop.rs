@@ -11,7 +11,7 @@ use crate::courant::Courant;
 use crate::ends::{Ahead, End, Ends};
 use crate::failure::RunFailure;
 use crate::folder::RunFolder;
-use crate::history::{History, RowMore};
+use crate::history::History;
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
 use crate::summary;
@@ -184,14 +184,9 @@ impl TimeLoop<'_> {
     fn row(&mut self, scheme: &dyn Scheme, diagnostics: Diagnostics) -> Result<(), RunFailure> {
         self.look(&diagnostics)?;
         self.clock.row_missing = false;
-        let cure = self.setup.scene.liquid.cure.as_ref();
-        let more = RowMore {
-            gap_m: self.setup.initial_gap_m.map(|g| g - self.clock.travel_m),
-            factor: cure.map(|cure| cure.factor(self.clock.time_s)),
-            stage: scheme.programme().map(|run| run.last_stage() + 1),
-            moment: self.watch.map(|watch| watch.look(scheme)).transpose()?,
-        };
-        self.history.row(&self.clock, &diagnostics, more)
+        let stage = scheme.programme().map(|run| run.last_stage() + 1);
+        let moment = self.watch.map(|watch| watch.look(scheme)).transpose()?;
+        (self.history).row(self.setup, &self.clock, &diagnostics, stage, moment)
     }
 }
 

@@ -22,13 +22,8 @@ macro_rules! dimensions {
             const SIZE: [f64; 2] = $size;
         })*
 
-        /// What a unit symbol measures, and what one of it is in SI.
-        pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
-            $(if let Some((_, factor)) = $name::UNITS.iter().find(|(name, _)| *name == symbol) {
-                return Some(($name::NAME, *factor));
-            })*
-            None
-        }
+        /// Every dimension: its name and units, of which the first with a symbol is meant by it.
+        pub const ALL: &[(&str, &[(&str, f64)])] = &[$(($name::NAME, $name::UNITS)),*];
     };
 }
 
@@ -64,4 +59,12 @@ dimensions! {
     SurfaceTension, "a surface tension", &[("N/m", 1.0), ("mN/m", 1e-3), ("dyn/cm", 1e-3)], [1e-9, 1e3];
     /// Plane angle, SI radian.
     Angle, "an angle", &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0), ("°", std::f64::consts::PI / 180.0)], [1e-30, 1e3];
+}
+
+/// What a unit symbol measures, and what one of it is in SI.
+pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
+    ALL.iter().find_map(|(name, units)| {
+        let (_, factor) = units.iter().find(|(known, _)| *known == symbol)?;
+        Some((*name, *factor))
+    })
 }

@@ -16,7 +16,7 @@ mod quantity;
 
 pub use axis::Axis;
 pub use dimension::{
-    Acceleration, Angle, Consistency, Density, Diffusivity, Dimension, Length, MolarEnergy,
+    ALL, Acceleration, Angle, Consistency, Density, Diffusivity, Dimension, Length, MolarEnergy,
     Pressure, ShearRate, Speed, Spread, SurfaceTension, Time, Viscosity, unit,
 };
 pub use quantity::{ParseError, Quantity, positive, si};

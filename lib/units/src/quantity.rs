@@ -26,22 +26,6 @@ impl<D: Dimension> Quantity<D> {
         self.si
     }
 
-    /// A quantity from its value in SI.
-    fn from_si(si: f64) -> Self {
-        Self {
-            si,
-            dimension: PhantomData,
-        }
-    }
-
-    /// This quantity if it is not too large to be meant; `text` is what was written.
-    fn of_size(self, text: &str) -> Result<Self, ParseError> {
-        match self.si.abs() <= D::SIZE[1] {
-            true => Ok(self),
-            false => Err(Self::beyond(text)),
-        }
-    }
-
     fn beyond(what: &str) -> ParseError {
         let ([least, most], unit) = (D::SIZE, D::UNITS[0].0);
         ParseError(format!(
@@ -89,20 +73,31 @@ impl<D: Dimension> FromStr for Quantity<D> {
     fn from_str(text: &str) -> Result<Self, ParseError> {
         let text = text.trim();
         // The longest numeric prefix, so that the 'e' of an exponent is not taken for a unit.
+        // Words such as "inf" are none.
         let number = |end: usize| {
-            let number = text.get(..end)?.trim_end().parse().ok();
-            number
-                .filter(|x: &f64| x.is_finite())
-                .map(|x| (x, text[end..].trim()))
+            let digits = text.get(..end)?.trim_end();
+            let number = digits.parse::<f64>().ok();
+            let number = number.filter(|_| digits.contains(|c: char| c.is_ascii_digit()));
+            number.map(|x| (x, digits, text[end..].trim()))
         };
         let (name, accepted) = (D::NAME, Self::accepted());
-        let Some((number, unit)) = (1..=text.len()).rev().find_map(number) else {
+        let Some((number, digits, unit)) = (1..=text.len()).rev().find_map(number) else {
             return Err(ParseError(format!(
                 "'{text}' is not {name}: a number with one of the units {accepted} is needed"
             )));
         };
         match D::UNITS.iter().find(|(symbol, _)| *symbol == unit) {
-            Some((_, factor)) => Self::from_si(number * factor).of_size(text),
+            Some((_, factor)) => {
+                let si = number * factor;
+                // A double holds neither 1e400 nor 1e-400.
+                let mantissa = digits.split(['e', 'E']).next().unwrap_or_default();
+                let lost = si == 0.0 && mantissa.contains(|c| ('1'..='9').contains(&c));
+                let dimension = PhantomData;
+                match si.abs() <= D::SIZE[1] && !lost {
+                    true => Ok(Self { si, dimension }),
+                    false => Err(Self::beyond(text)),
+                }
+            }
             None if unit.is_empty() => Err(ParseError(format!(
                 "'{text}' has no unit: {name} needs one of {accepted}"
             ))),
@@ -198,8 +193,16 @@ mod tests {
         ] {
             assert!(refused(bad).contains("um"), "{bad}: {}", refused(bad));
         }
-        for large in ["1e300 m", "-1e300 m", "1e308 mm"] {
-            let said = refused(large);
+        for beyond in [
+            "1e300 m",
+            "-1e300 m",
+            "1e308 mm",
+            "1e400 um",
+            "-1E400m",
+            "1e-400 um",
+            "1e-320 nm",
+        ] {
+            let said = refused(beyond);
             assert!(said.contains("from 1e-12 to 1e9 m"), "{said}");
         }
         // Near zero is a place like another, but not an edge or a thickness.

@@ -7,8 +7,8 @@ use units::{Axis, Pressure};
 
 use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, one_of, part, png,
-    position, rate, run, share,
+    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, number, one_of,
+    part, png, position, run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -24,30 +24,13 @@ use crate::values::{
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) figure: Figure,
-}
-
-impl Arguments {
-    /// The common options of whichever figure.
-    pub(crate) fn common(&self) -> &cli::Common {
-        match &self.figure {
-            Figure::Pressure { picture, .. }
-            | Figure::Map { picture, .. }
-            | Figure::Shear { picture, .. }
-            | Figure::Penetration { picture, .. }
-            | Figure::Pores { picture, .. }
-            | Figure::Response { picture, .. }
-            | Figure::Setup { picture, .. }
-            | Figure::View { picture, .. } => &picture.common,
-            Figure::Slice(a) => &a.picture.common,
-            Figure::Movie(a) => &a.common,
-            Figure::Table2(a) => &a.common,
-        }
-    }
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
 }
 
 #[derive(Subcommand)]
 pub(crate) enum Figure {
-    /// Clamping pressure and closing speed against time (Figs. 5 and 6)
+    /// Clamping pressure and closing speed against time (Figs. 5 and 6), stages of press programmes marked
     #[command(after_help = "Examples:
   bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
   bond-figures pressure --run out/pf-xpic --limit \"2.5 MPa\" --title PF -o pf.svg -o pf.png
@@ -227,14 +210,12 @@ pub(crate) struct MovieArgs {
     #[arg(short, long, value_name = "PNG", value_parser = given(png))]
     pub(crate) output: Output,
     /// Frames a second, 0.1 to 60; the last frame stays for two seconds
-    #[arg(long, value_name = "NUMBER", default_value = "5", value_parser = rate)]
+    #[arg(long, value_name = "NUMBER", default_value = "5", value_parser = |text: &str| number(text, [0.1, 60.0]))]
     pub(crate) rate: f64,
     #[command(flatten)]
     pub(crate) look: Look,
     #[command(flatten)]
     pub(crate) print: Print,
-    #[command(flatten)]
-    common: cli::Common,
 }
 
 #[derive(Args)]
@@ -264,8 +245,6 @@ pub(crate) struct Table2Args {
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) print: Print,
-    #[command(flatten)]
-    common: cli::Common,
 }
 
 impl Table2Args {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use cli::{Failure, InputRecord, Output, Record};
 use figures::{Case, Labelled, read_beside};
-use particle_file::ParticleFile;
+use particle_file::{ParticleFile, file_of_run};
 
 /// The files of a figure; standard input is among them as a temporary file.
 pub(crate) struct Inputs {
@@ -56,7 +56,7 @@ impl Inputs {
     pub(crate) fn of_runs(mut runs: Vec<Labelled>) -> Result<Self, Failure> {
         for run in &mut runs {
             if run.path.is_dir() {
-                run.path.push("history.csv");
+                run.path = file_of_run(&run.path, "history.csv").map_err(Failure::data)?;
             }
         }
         Self::new(runs)

@@ -17,10 +17,10 @@ use particle_file::{by_time, states_of_run};
 use arguments::{Arguments, Figure, MovieArgs, SliceArgs, Table2Args};
 use inputs::Inputs;
 use picture::Picture;
-use values::{Format, Target};
+use values::Target;
 
 fn main() -> ExitCode {
-    cli::main(Arguments::common, run)
+    cli::main(|a: &Arguments| &a.common, run)
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
@@ -174,12 +174,7 @@ fn table2(a: &Table2Args) -> Result<(), Failure> {
 /// Writes the picture to each of its outputs.
 fn write(drawing: &Drawing, targets: &[Target], record: &Record) -> Result<(), Failure> {
     for target in targets {
-        let bytes = match target.format {
-            Format::Svg => drawing.to_svg().map(String::into_bytes),
-            Format::Png => drawing.to_png(),
-            Format::Pdf => drawing.to_pdf(),
-        };
-        let bytes = bytes.map_err(failure)?;
+        let bytes = (target.render)(drawing).map_err(failure)?;
         (target.output).write_with_record(record, |out| out.write_all(&bytes))?;
     }
     Ok(())

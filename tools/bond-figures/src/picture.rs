@@ -3,7 +3,7 @@
 use clap::Args;
 use figures::{Direction, Page, Wood};
 
-use crate::values::{Target, WOOD, degrees, dpi, given, one_of, width};
+use crate::values::{Target, WOOD, degrees, given, number, one_of, width};
 
 #[derive(Args)]
 pub(crate) struct Picture {
@@ -12,8 +12,6 @@ pub(crate) struct Picture {
     pub(crate) output: Vec<Target>,
     #[command(flatten)]
     pub(crate) print: Print,
-    #[command(flatten)]
-    pub(crate) common: cli::Common,
 }
 
 /// What a picture is printed on.
@@ -24,7 +22,7 @@ pub(crate) struct Print {
     #[arg(long, value_name = "LEN", value_parser = width)]
     width: Option<f64>,
     /// Pixels per inch of a PNG, 30 to 1200
-    #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = dpi)]
+    #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = |text: &str| number(text, Page::DPI))]
     dpi: f64,
 }
 

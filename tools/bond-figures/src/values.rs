@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use cli::Output;
-use figures::{Case, Colouring, Labelled, Page, Position, Shown, Wood};
+use figures::{Case, Colouring, Drawing, Error, Labelled, Page, Position, Shown, Wood};
 use units::{Length, si};
 
 /// How to colour the adhesive.
@@ -40,24 +40,20 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// A picture's file and format.
+/// A picture's file, and how it is rendered.
 #[derive(Clone)]
 pub(crate) struct Target {
     pub(crate) output: Output,
-    pub(crate) format: Format,
+    pub(crate) render: Render,
 }
 
-#[derive(Clone, Copy)]
-pub(crate) enum Format {
-    Svg,
-    Png,
-    Pdf,
-}
+type Render = fn(&Drawing) -> Result<Vec<u8>, Error>;
 
-const FORMATS: [(&str, Format); 3] = [
-    ("svg", Format::Svg),
-    ("png", Format::Png),
-    ("pdf", Format::Pdf),
+const SVG: Render = |drawing| drawing.to_svg().map(String::into_bytes);
+const FORMATS: [(&str, Render); 3] = [
+    ("svg", SVG),
+    ("png", Drawing::to_png),
+    ("pdf", Drawing::to_pdf),
 ];
 
 impl Target {
@@ -68,13 +64,13 @@ impl Target {
                 .iter()
                 .find(|(name, _)| end.eq_ignore_ascii_case(name))
         };
-        let format = match &output {
-            Output::Stdout => Some(Format::Svg),
-            Output::File(path) => path.extension().and_then(named).map(|(_, format)| *format),
+        let render = match &output {
+            Output::Stdout => Some(SVG),
+            Output::File(path) => path.extension().and_then(named).map(|(_, render)| *render),
         };
         let wrong = "is not a picture's name: it must end in .svg, .png or .pdf";
-        let format = format.ok_or_else(|| format!("{output} {wrong}"))?;
-        Ok(Self { output, format })
+        let render = render.ok_or_else(|| format!("{output} {wrong}"))?;
+        Ok(Self { output, render })
     }
 
     /// As [`Target::new`], but no standard output.
@@ -190,15 +186,9 @@ pub(crate) fn degrees(text: &str, [least, most]: [f64; 2]) -> Result<f64, String
     within([least, most], text).ok_or_else(wrong)
 }
 
-pub(crate) fn dpi(text: &str) -> Result<f64, String> {
-    let [least, most] = Page::DPI;
+pub(crate) fn number(text: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
     let wrong = || format!("'{text}' is not a number from {least} to {most}");
-    within(Page::DPI, text).ok_or_else(wrong)
-}
-
-/// Frames a second.
-pub(crate) fn rate(text: &str) -> Result<f64, String> {
-    within([0.1, 60.0], text).ok_or_else(|| format!("'{text}' is not a number from 0.1 to 60"))
+    within([least, most], text).ok_or_else(wrong)
 }
 
 /// A length, or a multiple of the voxel of the first file.

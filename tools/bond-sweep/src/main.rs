@@ -12,8 +12,8 @@ mod table;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
-use cli::Output;
+use clap::{Parser, Subcommand};
+use cli::{Failure, Output};
 
 /// Run a table of parameters, a row a run, and collect one table of results
 #[derive(Parser)]
@@ -35,6 +35,8 @@ stopped early or not all runs ended: start the same command again."
 struct Arguments {
     #[command(subcommand)]
     step: Step,
+    #[command(flatten)]
+    common: cli::Common,
 }
 
 #[derive(Subcommand)]
@@ -44,73 +46,64 @@ enum Step {
   bond-sweep plan table.csv --case pipelines/cases/pf-implicit.toml -o out/sweep/table
   bond-sweep plan large.csv --case pf-xpic.toml --yes-really -o sweep
   bond-sweep plan table.csv --case pf-implicit.toml -o sweep && wc -l sweep/runs.txt")]
-    Plan(PlanArgs),
+    Plan {
+        /// Table of the runs (CSV)
+        table: PathBuf,
+        /// Case file of the rows that name none
+        #[arg(long, value_name = "CASE.toml")]
+        case: PathBuf,
+        /// Folder of the sweep
+        #[arg(short, long, value_name = "FOLDER")]
+        output: PathBuf,
+        /// Plan even runs whose forecast exceeds 1e9 steps, a week or the available memory
+        #[arg(long)]
+        yes_really: bool,
+    },
     /// Run one of the planned runs, or continue it, and measure its end
     #[command(after_help = "Examples:
   bond-sweep run sweep 03f2a1b4c5d6e7f8
   parallel --joblog sweep/jobs bond-sweep run --threads 1 sweep {} < sweep/runs.txt
   bond-sweep run sweep $(sed -n ${SLURM_ARRAY_TASK_ID}p sweep/runs.txt)")]
-    Run(RunArgs),
+    Run {
+        /// Folder of the sweep
+        folder: PathBuf,
+        /// Which run: a line of its runs.txt
+        run: String,
+    },
     /// Put the results of all rows into one table
     #[command(after_help = "Examples:
   bond-sweep collect sweep -o results.csv
   bond-sweep collect sweep -o results.csv --cost cost.csv
   bond-sweep collect sweep -o - | column -s, -t | less -S")]
-    Collect(CollectArgs),
-}
-
-#[derive(Args)]
-struct PlanArgs {
-    /// Table of the runs (CSV)
-    table: PathBuf,
-    /// Case file of the rows that name none
-    #[arg(long, value_name = "CASE.toml")]
-    case: PathBuf,
-    /// Folder of the sweep
-    #[arg(short, long, value_name = "FOLDER")]
-    output: PathBuf,
-    /// Plan even runs whose forecast exceeds 1e9 steps, a week or the available memory
-    #[arg(long)]
-    yes_really: bool,
-    #[command(flatten)]
-    common: cli::Common,
-}
-
-#[derive(Args)]
-struct RunArgs {
-    /// Folder of the sweep
-    folder: PathBuf,
-    /// Which run: a line of its runs.txt
-    run: String,
-    #[command(flatten)]
-    common: cli::Common,
-}
-
-#[derive(Args)]
-struct CollectArgs {
-    /// Folder of the sweep
-    folder: PathBuf,
-    /// CSV to write; `-` is standard output
-    #[arg(short, long, value_name = "CSV")]
-    output: Output,
-    /// Write the time and memory that each run took; they differ each time
-    #[arg(long, value_name = "CSV")]
-    cost: Option<Output>,
-    #[command(flatten)]
-    common: cli::Common,
+    Collect {
+        /// Folder of the sweep
+        folder: PathBuf,
+        /// CSV to write; `-` is standard output
+        #[arg(short, long, value_name = "CSV")]
+        output: Output,
+        /// Write the time and memory that each run took; they differ each time
+        #[arg(long, value_name = "CSV")]
+        cost: Option<Output>,
+    },
 }
 
 fn main() -> ExitCode {
-    cli::main(
-        |a: &Arguments| match &a.step {
-            Step::Plan(a) => &a.common,
-            Step::Run(a) => &a.common,
-            Step::Collect(a) => &a.common,
-        },
-        |a| match a.step {
-            Step::Plan(a) => plan::make(&a.table, &a.case, &a.output, a.yes_really),
-            Step::Run(a) => press::run(&a.folder, &a.run),
-            Step::Collect(a) => collect::collect(&a.folder, &a.output, a.cost.as_ref()),
-        },
-    )
+    cli::main(|a: &Arguments| &a.common, run)
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.step {
+        Step::Plan {
+            table,
+            case,
+            output,
+            yes_really,
+        } => plan::make(&table, &case, &output, yes_really),
+        Step::Run { folder, run } => press::run(&folder, &run),
+        Step::Collect {
+            folder,
+            output,
+            cost,
+        } => collect::collect(&folder, &output, cost.as_ref()),
+    }
 }

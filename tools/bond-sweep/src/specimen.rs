@@ -122,25 +122,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_that_no_specimen_has_are_refused() {
-        for (option, default) in QUICK.into_iter().filter(|(_, value)| !value.is_empty()) {
-            assert_eq!(check(option, default), Ok(()));
-        }
-        for (option, bad, word) in [
-            ("adhesive", "glue", "pf or pva-pf"),
-            ("size", "40x96", "40x96x40"),
-            ("size", "40x0x40", "40x96x40"),
-            ("seed", "-1", "from 0"),
-            ("slab", "14.5", "no unit"),
-            ("grain_angle", "5 um", "angle"),
-            ("voxel", "-1 um", "greater than zero"),
-        ] {
-            let said = check(option, bad).unwrap_err();
-            assert!(said.contains(word), "{said}");
-        }
-    }
-
-    #[test]
     fn specimens_are_told_apart_by_every_option() {
         let quick = Recipe::quick_but(&[]);
         assert_eq!(quick, Recipe::quick_but(&[("seed", "1")]));

@@ -184,23 +184,4 @@ mod tests {
         let table = parsed("a.b,c.d\n,\n1,2\n , \n,,,,\n\n3,4\n,\n").unwrap();
         assert_eq!(table.rows, [["1", "2"], ["3", "4"]]);
     }
-
-    #[test]
-    fn what_is_no_table_is_refused_in_a_sentence() {
-        for (text, word) in [
-            ("viscosity\n1\n", "'viscosity' is no column"),
-            ("a.b;c.d\n1;2\n", "separated by commas"),
-            ("a.b,a.b\n1,2\n", "two columns 'a.b'"),
-            ("specimen.colour\n1\n", "there are adhesive, size"),
-            ("a.b,c.d\n1,2\n1\n", "row 2 has 1 cells"),
-            ("a.b,c.d\n,\n1\n", "row 1 has 1 cells"),
-            ("a.b,c.d\n,\n,\n", "no row"),
-            ("a.b\n", "no row"),
-            ("", "no row"),
-        ] {
-            let said = format!("{:?}", parsed(text).unwrap_err());
-            assert!(said.contains(word), "{text}: {said}");
-        }
-        assert!(Table::parse(Path::new("t.csv"), b"a.b\n\xff\n").is_err());
-    }
 }

@@ -25,6 +25,8 @@ Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt file."
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    #[command(flatten)]
+    common: Common,
 }
 
 #[derive(Subcommand, Debug)]
@@ -50,19 +52,10 @@ struct Files {
     /// Particle files; '-' is standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    #[command(flatten)]
-    common: Common,
 }
 
 fn main() -> ExitCode {
-    cli::main(common, run)
-}
-
-fn common(arguments: &Arguments) -> &Common {
-    match &arguments.command {
-        Command::Info(files) | Command::Check(files) | Command::Sum(files) => &files.common,
-        Command::Export(export) => &export.common,
-    }
+    cli::main(|a: &Arguments| &a.common, run)
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {

@@ -71,12 +71,24 @@ fn rows_stand_in_the_middle_of_their_steps() {
 
 /// Stages of milliseconds stand beside a hold of minutes.
 #[test]
-fn a_press_programme_has_a_logarithmic_time() {
+fn a_press_programme_has_a_logarithmic_time_and_named_stages() {
     let folder = Folder::new();
-    let rows = [1e-3, 1.0, 300.0].map(|t| format!("{t},0,1,1e6,1"));
+    let rows = [(1e-3, 0), (1.0, 2), (1.02, 3), (300.0, 4)];
+    let rows = rows.map(|(t, stage)| format!("{t},1e-3,1,1e6,{stage}"));
     let header = "time_s,dt_s,closing_speed_m_s,pressure_top_Pa,stage";
-    let drawing = closed(&[folder.labelled("a", csv(header, rows))]);
-    says(&drawing, &["time (s)", "10⁻²", "10²"]);
+    let run = [folder.labelled("a", csv(header, rows))];
+    says(
+        &closed(&run),
+        &["time (s)", "10⁻²", "10²", "stage 0", "stage 2"],
+    );
+    folder.file("bondline-run.toml", "");
+    let stages =
+        ["approach", "ramp", "hold"].map(|kind| format!("[[clamp.stage]]\nkind = \"{kind}\"\n"));
+    folder.file("resolved.toml", stages.concat());
+    let drawing = closed(&run);
+    says(&drawing, &["ramp", "stage 4"]);
+    // There is no room for a second name at the same place.
+    assert!(!drawing.text_boxes().iter().any(|one| one.text == "hold"));
 }
 
 /// A run at 1 MPa and its finer one at 1.2, which goes as far in half the time: in cells of no size 1.4 +- 0.2
@@ -125,7 +137,7 @@ fn the_band_of_a_finer_run_reaches_from_the_line_beyond_the_extrapolation() {
 }
 
 #[test]
-fn gaps_and_single_rows_are_drawn_and_nothing_else() {
+fn a_single_row_is_a_dot_and_a_row_without_a_number_is_refused() {
     let folder = Folder::new();
     let run = |rows: &str| {
         let header = "time_s,closing_speed_m_s,pressure_bottom_Pa,pressure_top_Pa\n";
@@ -135,13 +147,12 @@ fn gaps_and_single_rows_are_drawn_and_nothing_else() {
     let blue = share(&dot, BLUE);
     println!("one row: {blue:.6} of the picture is its mark and legend");
     assert!(blue > 1e-4 && blue < 3e-3);
-    let gap = run("0,1,1e6,1e6\n1e-6,1,NaN,NaN\n2e-6,1,,\n3e-6,1,1e6,1e6\n");
-    let (width, with_gap) = pixels(&closed(&[gap]));
-    // The pressure of 1 MPa is shown at both ends and not bridged in the middle.
-    let mut column = (120..680).map(|row| with_gap[row * width + width / 2 + 30]);
-    assert!(column.all(|pixel| pixel != BLUE));
-    let nothing = closing(&[run("0,1,NaN,NaN\n")], &[], None, "", Page::default());
-    assert!(matches!(nothing, Err(Error::Data(_))));
+    for cell in ["NaN", "", "inf"] {
+        let run = run(&format!("0,1,1e6,1e6\n1e-6,1,1e6,{cell}\n"));
+        let said = closing(&[run], &[], None, "", Page::default()).unwrap_err();
+        let why = format!("line 3, column pressure_top_Pa: '{cell}' is not a finite number");
+        assert!(said.to_string().contains(&why), "{said}");
+    }
 }
 
 #[test]
@@ -186,14 +197,17 @@ fn a_plot_has_titles_labels_and_marks() {
     assert!(matches!(empty.draw(Page::default()), Err(Error::Data(_))));
 }
 
-/// What stands beside the result asked for is left out where no run has it.
+/// A run that failed has no results, and no other may lack one.
 #[test]
-fn a_sweep_without_pressures_has_a_response() {
+fn a_sweep_is_drawn_without_the_runs_that_failed() {
     let folder = Folder::new();
-    for (pressure, panels) in [("", 0), ("1e5", 1)] {
-        let rows = [format!("1,1,sound,10,{pressure}"), "2,2,sound,12,".into()];
+    let drawn = |status: &str| {
+        let rows = ["1,1,sound,10,1e5".to_owned(), format!("2,2,{status},,")];
         let sweep = folder.labelled("sweep", csv("row,mu,status,wp_um,pressure_pa", rows));
-        let drawing = response(&sweep, "wp_um", None, Page::default()).unwrap();
-        assert_eq!(drawing.to_svg().unwrap().matches("(MPa)").count(), panels);
-    }
+        response(&sweep, "wp_um", None, Page::default())
+    };
+    let drawing = drawn("failed").unwrap();
+    assert_eq!(drawing.to_svg().unwrap().matches("(MPa)").count(), 1);
+    let said = drawn("sound").unwrap_err().to_string();
+    assert!(said.contains("line 3, column wp_um: ''"), "{said}");
 }

@@ -172,7 +172,7 @@ fn of_setups_and_tables() {
         .to_string();
     let said = "holds a bond before pressing, where a specimen is needed";
     assert!(refused.contains(said), "{refused}");
-    let rows = ["a,bottom,mid,1,2", "a,top,mid,111.1,2", "a,total,mid,,2"].map(String::from);
+    let rows = ["a,bottom,mid,1,2", "a,top,mid,,2", "a,total,mid,111.1,2"].map(String::from);
     let wp = csv("file,side,reference,wp_um,slab_wp_um", rows);
     let wp = folder.file("wp.csv", wp);
     check("table", |names, page| {

@@ -61,11 +61,6 @@ impl Key {
 mod tests {
     use std::path::Path;
 
-    use units::{
-        Acceleration, Angle, Density, Dimension, Length, Pressure, ShearRate, Speed,
-        SurfaceTension, Time, Viscosity,
-    };
-
     use super::*;
     use crate::case::Case;
     use crate::failure::RunFailure;
@@ -226,30 +221,22 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
 
     #[test]
     fn the_units_of_the_page_are_those_accepted() {
-        fn row<D: Dimension>() -> String {
+        let mut told = 0;
+        for (name, units) in units::ALL {
+            let (_, noun) = name.split_once(' ').unwrap();
+            let Some(row) = REFERENCE
+                .lines()
+                .find(|line| line.starts_with(&format!("| {noun} | `")))
+            else {
+                continue;
+            };
             // Micro sign and Greek mu, which look alike, are both accepted and told once.
-            let names = D::UNITS.iter().map(|(name, _)| *name);
+            let names = units.iter().map(|(name, _)| *name);
             let names = names.filter(|name| !name.starts_with('\u{3bc}'));
             let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
-            let (_, noun) = D::NAME.split_once(' ').unwrap();
-            format!("| {noun} | {} |\n", names.join(", "))
+            assert_eq!(row, format!("| {noun} | {} |", names.join(", ")));
+            told += 1;
         }
-        let rows = [
-            row::<Length>,
-            row::<Time>,
-            row::<Speed>,
-            row::<Acceleration>,
-            row::<Pressure>,
-            row::<Density>,
-            row::<Viscosity>,
-            row::<ShearRate>,
-            row::<SurfaceTension>,
-            row::<Angle>,
-        ];
-        let rows: String = rows.map(|row| row()).concat();
-        assert!(
-            REFERENCE.contains(&format!("|---|---|\n{rows}\n")),
-            "{rows}"
-        );
+        assert_eq!(told, 10);
     }
 }

@@ -66,7 +66,7 @@ impl EdgeLength {
         let sound = number.filter(|n| *n > 0.0 && n.is_finite());
         sound.map(Self::Edges).ok_or_else(|| {
             E::custom(format!(
-                "'{text}' is not accepted: a number of {}s greater than zero is needed, such as {example}",
+                "'{text}' is not accepted: a finite number of {}s greater than zero is needed, such as {example}",
                 names[names.len() - 1]
             ))
         })

@@ -17,28 +17,20 @@ fn set(path: &Path, mode: u32) {
 /// All became readable by everybody.
 #[test]
 fn files_keep_their_modes_when_another_run_takes_their_place() {
-    let bench = Bench::explicit();
-    bench.ran("run", OVERWRITE, END);
-    let names = bench.everything().into_keys();
-    let names: Vec<_> = names.filter(|name| name != "bondline-run.toml").collect();
-    assert!(names.len() >= 7, "{names:?}");
-    for (name, bits) in names.iter().zip([0o600, 0o640].into_iter().cycle()) {
-        set(&bench.path("run").join(name), bits);
+    // The second is stopped on its way, and has a checkpoint.
+    for (how, first, second) in [(OVERWRITE, END, END), (RESUME, 9, 4)] {
+        let bench = Bench::explicit();
+        bench.ran("run", how, first);
+        let names = bench.everything().into_keys();
+        let names: Vec<_> = names.filter(|name| name != "bondline-run.toml").collect();
+        let bits = || names.iter().zip([0o600, 0o640].into_iter().cycle());
+        assert!(names.len() >= 5, "{names:?}");
+        bits().for_each(|(name, bits)| set(&bench.path("run").join(name), bits));
+        bench.ran("run", how, second);
+        for (name, bits) in bits() {
+            assert_eq!(mode(&bench.path("run").join(name)), bits, "{name}");
+        }
     }
-    bench.ran("run", OVERWRITE, END);
-    for (name, bits) in names.iter().zip([0o600, 0o640].into_iter().cycle()) {
-        assert_eq!(mode(&bench.path("run").join(name)), bits, "{name}");
-    }
-}
-
-#[test]
-fn a_checkpoint_keeps_its_mode() {
-    let bench = Bench::explicit();
-    bench.ran("run", RESUME, 9);
-    let checkpoint = bench.path("run/checkpoint.mpts");
-    set(&checkpoint, 0o600);
-    bench.ran("run", RESUME, 4);
-    assert_eq!(mode(&checkpoint), 0o600);
 }
 
 /// Write-protected files were replaced.

@@ -106,8 +106,8 @@ fn a_pressed_slab_by_the_explicit_scheme() {
         // cell / (c + v) and rho cell^2 / (8 eta), half of it by the Courant number.
         "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the Courant number 0.5",
         "time step 1.0000e-9 s, set by viscous",
-        "lumens of 17.4 um, not this specimen's: 8.7 cells across",
-        "measured with 12 cells across the lumen",
+        "lumen of 17.4 um 8.7 cells across",
+        "measured with 12 cells across that lumen",
         "capillary pressure 10.0 kPa in a six-cell lumen, 0.40 % of the pressure limit",
     ];
     let said = says(&[], &[], &lines);
@@ -135,15 +135,15 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
     ];
     let lines = [
         "grid 10 x 10 x 3 cells of 2.9000 um, 3D",
-        "lumens of 17.4 um, not this specimen's: 6.0 cells across",
-        "measured with 6 cells across the lumen",
-        "and the default Courant number",
+        "lumen of 17.4 um 6.0 cells across",
+        "measured with 6 cells across that lumen",
+        "both with the default Courant number",
     ];
     says(&[], &coarser, &lines);
     let wp = "WP about 1.0 % (a small bond line), about 3.4 % (two sizes of cells, the worst of the bonds of make)";
     says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);
-    assert!(!default.contains("and the default"), "{default}");
+    assert!(!default.contains("with the default"), "{default}");
     let not = "pressure, flow not measured with this update";
     says(&[], &["integrator.order=19"], &[not]);
 }
@@ -163,7 +163,7 @@ fn departures_from_the_paper_are_named() {
         "pressure from the mean J of each cell, not the paper's",
         "density projection after every 0.04 cell of motion, not the paper's",
         "contact separation 0.8 cell, not the shape function's own",
-        "and the default contact separation, points per direction",
+        "both with the default contact separation, points per direction",
     ];
     says(&[], &changes, &lines);
 }
@@ -193,7 +193,10 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
         "integrator.scheme=explicit",
     ];
     leaves_out(&bench, &free, &[&drop[..], &of_update].concat());
-    let of_implicit = ["PID no pressure limit", "shear rate between snapshots"];
+    let of_implicit = [
+        "PID no pressure limit",
+        "shear rate not known between states",
+    ];
     let implicit = [free[0], free[1], "integrator.scheme=implicit"];
     leaves_out(&bench, &implicit, &[&drop[..], &of_implicit].concat());
     let flat = ["grid.dimensions=2", "integrator.scheme=implicit"];

@@ -69,17 +69,3 @@ fn a_movie_has_a_frame_a_state_and_its_camera_stands_still() {
         assert!(part(frame, 0..height / 2) != part(0, 0..height / 2));
     }
 }
-
-#[test]
-fn a_folder_without_states_and_other_formats_are_refused() {
-    let bench = crate::bench();
-    for (arguments, status, says) in [
-        ("x=. -o a.png", 3, "holds no state of a run"),
-        ("x=. -o a.gif", 2, "must end in .png"),
-        ("x=. --rate 0 -o a.png", 2, "0.1 to 60"),
-    ] {
-        let run = bench.run(&format!("movie {arguments}"));
-        run.refused(status, says);
-    }
-    assert!(!bench.path("a.png").exists() && !bench.path("a.gif").exists());
-}

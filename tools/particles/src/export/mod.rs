@@ -9,7 +9,7 @@ mod vtk;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use cli::{Common, Failure, InputRecord, Output, Record};
+use cli::{Failure, InputRecord, Output, Record};
 use particle_file::ParticleFile;
 use voxels::LabelVolume;
 
@@ -26,8 +26,6 @@ pub struct Arguments {
     /// Format [default: the extension of the output file]
     #[arg(short, long)]
     format: Option<Format>,
-    #[command(flatten)]
-    pub common: Common,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -179,7 +179,7 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
     fs::create_dir(bench.path("empty")).unwrap();
     bench
         .run("--series empty")
-        .refused(3, "holds no state of a run");
+        .refused(3, "is not a run folder of mpm-run");
 }
 
 #[test]

@@ -1,0 +1,66 @@
+//! Command lines of runs, to be given again.
+
+use std::path::Path;
+
+use particle_file::{ParticleFile, states_of_run};
+
+/// The command of the run in `folder` by its checkpoint or, before the first, a state: a run that was killed has no summary.
+pub(crate) fn of_states(folder: &Path) -> Option<Vec<String>> {
+    let states = states_of_run(folder).unwrap_or_default();
+    let files = [folder.join("checkpoint.mpts")].into_iter().chain(states);
+    let file = files
+        .filter_map(|path| ParticleFile::open(path).ok())
+        .next()?;
+    Some(file.header().provenance.last()?.command.clone())
+}
+
+/// The end of a sentence: the command of a run again, with an option and a key; nothing where it is not known.
+pub(crate) fn again(command: &[String], option: &str, key: Option<&str>) -> String {
+    let tool = command.first().map(|tool| Path::new(tool).file_name());
+    if tool != Some(Some("mpm-run".as_ref())) {
+        return String::new();
+    }
+    let kept = command.iter().map(String::as_str);
+    let kept = kept.filter(|word| !matches!(*word, "--resume" | "--overwrite"));
+    let set = key.into_iter().flat_map(|key| ["--set", key]);
+    let words: Vec<String> = kept.chain([option]).chain(set).map(quoted).collect();
+    format!(":\n    {}", words.join(" "))
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use particle_file::{Draft, Header, Kind, Provenance};
+
+    use crate::RunEnd;
+
+    #[test]
+    fn a_killed_run_is_told_with_the_command_of_its_checkpoint() {
+        let folder = tempfile::tempdir().unwrap();
+        let advice = || RunEnd::in_folder(folder.path()).unwrap().0.advice();
+        let known = "not ended: mpm-run with --resume goes on";
+        assert_eq!(advice().unwrap(), known);
+        let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [1.0; 3]);
+        header.provenance.push(Provenance {
+            tool: "mpm-run".into(),
+            version: String::new(),
+            command: ["mpm-run", "a.toml", "-o", "my run"]
+                .map(String::from)
+                .to_vec(),
+            inputs: Vec::new(),
+        });
+        let mut bytes = Vec::new();
+        Draft::new(header).write_to(&mut bytes).unwrap();
+        std::fs::write(folder.path().join("checkpoint.mpts"), bytes).unwrap();
+        let command = "\n    mpm-run a.toml -o 'my run' --resume";
+        assert_eq!(advice().unwrap(), format!("{known}:{command}"));
+    }
+}
