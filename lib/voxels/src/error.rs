@@ -14,6 +14,11 @@ pub enum Error {
     Usage(String),
 }
 
+/// What is said of a file at whose content a decoder gave up.
+pub(crate) fn damaged(cause: impl Display) -> String {
+    format!("the file is cut or damaged ({cause})")
+}
+
 impl Error {
     /// Whether other arguments, not another file, would help.
     pub fn is_usage(&self) -> bool {

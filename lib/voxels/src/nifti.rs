@@ -5,6 +5,7 @@
 use std::io::Read;
 
 use crate::Error;
+use crate::error::damaged;
 use crate::kind::{NIFTI_HEADERS, is_gzip, nifti_version};
 use crate::pixels::{self, Coding, Described};
 use crate::raw::Raw;
@@ -14,8 +15,7 @@ use crate::volume::Volume;
 use crate::voxel_size::VoxelSize;
 
 pub(crate) fn open(source: Source) -> Result<Volume, Error> {
-    let unreadable = |e| Error::io(&source, e);
-    let begin = source.window(0, 2).map_err(unreadable)?;
+    let begin = source.window(0, 2).map_err(|e| Error::io(&source, e))?;
     let coding = match is_gzip(&begin) {
         true => Coding::Gzip,
         false => Coding::Raw,
@@ -23,7 +23,7 @@ pub(crate) fn open(source: Source) -> Result<Volume, Error> {
     let mut head = Vec::new();
     (pixels::reader(&source, 0, coding))
         .and_then(|content| content.take(NIFTI_HEADERS[1] as u64).read_to_end(&mut head))
-        .map_err(unreadable)?;
+        .map_err(|e| Error::file(&source, damaged(e)))?;
     let wrong = |what: &str| Error::file(&source, what);
     let Some((version, big_endian)) = nifti_version(&head) else {
         return Err(wrong(

@@ -118,6 +118,8 @@ fn the_only_volume_of_an_npz() {
     let all = volume();
     let whole = npz(&[("voxel_m", "", &[1]), ("labels", &shape(), &all)]);
     assert_file("a.npz", &whole, PLAIN);
+    let cut = &whole[..whole.len() - 9];
+    assert_refused("a.npz", cut, &["cut or damaged ("]);
     let two = npz(&[("a", &shape(), &all), ("b", &shape(), &all)]);
     assert_refused("a.npz", &two, &["2 arrays of three axes: a.npy, b.npy"]);
     let none = npz(&[("a", "3,", &[1, 2, 3])]);
@@ -136,6 +138,7 @@ fn nifti_of_both_versions_plain_and_gzipped() {
         let cut = &plain[..plain.len() - 1];
         assert_refused("a.nii", cut, &["truncated"]);
         assert_refused("a.nii.gz", &gzip(cut), &["compressed pixels"]);
+        assert_refused("a.nii.gz", &gzip(cut)[..20], &["cut or damaged ("]);
     }
     for (kind, code) in NUMBERS
         .into_iter()
