@@ -12,6 +12,7 @@ mod bmp;
 mod coder;
 mod colours;
 mod crop;
+mod cuts;
 mod despeckle;
 mod error;
 mod folder;

@@ -119,6 +119,12 @@ impl PageFormat {
         self.sample.bytes() * self.channels
     }
 
+    /// The numbers of a row of pixels of one sample.
+    pub(crate) fn values(self, row: &[u8]) -> impl Iterator<Item = f64> {
+        let pixels = row.chunks_exact(self.sample.bytes());
+        pixels.map(move |pixel| self.sample.value(pixel))
+    }
+
     /// Bytes of one page, if that is a number.
     pub(crate) fn page_bytes(&self) -> Option<usize> {
         let pixels = self.width.checked_mul(self.height)?;

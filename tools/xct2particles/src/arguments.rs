@@ -75,7 +75,7 @@ pub(crate) struct Arguments {
         required_unless_present_any = ["histogram", "preview"]
     )]
     pub(crate) output: Option<Output>,
-    /// Go on where wood and void look exchanged
+    /// Go on where two phases look exchanged, or the voxel edge is none in which cells of wood are seen
     #[arg(long)]
     pub(crate) yes_really: bool,
     #[command(flatten)]
