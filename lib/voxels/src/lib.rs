@@ -15,6 +15,7 @@ mod crop;
 mod cuts;
 mod despeckle;
 mod error;
+mod fields;
 mod folder;
 mod foreign;
 mod histogram;

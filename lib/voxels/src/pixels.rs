@@ -244,8 +244,3 @@ fn from_text(
         ))),
     }
 }
-
-/// Whole numbers with blanks between them.
-pub(crate) fn whole_numbers(text: &str) -> Option<Vec<usize>> {
-    text.split_whitespace().map(|n| n.parse().ok()).collect()
-}

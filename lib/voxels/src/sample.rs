@@ -19,14 +19,6 @@ macro_rules! samples {
                 }
             }
 
-            /// That of `u8`, `i16`, `f32` ...
-            pub(crate) fn named(name: &str) -> Option<Self> {
-                match name {
-                    $(stringify!($number) => Some(Sample::$name),)*
-                    _ => None,
-                }
-            }
-
             /// The value of one sample in native byte order; `bytes` holds at least
             /// [`Sample::bytes`]. Integers beyond 2^53 are rounded, which no label reaches.
             pub(crate) fn value(self, bytes: &[u8]) -> f64 {
@@ -67,7 +59,80 @@ samples! {
     F64 f64 real "64-bit float"
 }
 
+/// The names of number types in `--type`, MetaImage and NRRD, and their codes in NIfTI. MetaImage's LONG has four bytes
+/// wherever it is written.
+const NAMES: [(Sample, i16, &[&str]); 10] = [
+    (
+        Sample::U8,
+        2,
+        &["u8", "MET_UCHAR", "uchar", "unsigned char", "uint8"],
+    ),
+    (Sample::I8, 256, &["i8", "MET_CHAR", "signed char", "int8"]),
+    (
+        Sample::U16,
+        512,
+        &["u16", "MET_USHORT", "ushort", "unsigned short", "uint16"],
+    ),
+    (
+        Sample::I16,
+        4,
+        &["i16", "MET_SHORT", "short", "signed short", "int16"],
+    ),
+    (
+        Sample::U32,
+        768,
+        &[
+            "u32",
+            "MET_UINT",
+            "MET_ULONG",
+            "uint",
+            "unsigned int",
+            "uint32",
+        ],
+    ),
+    (
+        Sample::I32,
+        8,
+        &["i32", "MET_INT", "MET_LONG", "int", "signed int", "int32"],
+    ),
+    (
+        Sample::U64,
+        1280,
+        &[
+            "u64",
+            "MET_ULONG_LONG",
+            "ulonglong",
+            "unsigned long long",
+            "uint64",
+        ],
+    ),
+    (
+        Sample::I64,
+        1024,
+        &[
+            "i64",
+            "MET_LONG_LONG",
+            "longlong",
+            "long long",
+            "signed long long",
+            "int64",
+        ],
+    ),
+    (Sample::F32, 16, &["f32", "MET_FLOAT", "float"]),
+    (Sample::F64, 64, &["f64", "MET_DOUBLE", "double"]),
+];
+
 impl Sample {
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let known = NAMES.iter().find(|(.., names)| names.contains(&name));
+        known.map(|(sample, ..)| *sample)
+    }
+
+    pub(crate) fn of_nifti(code: i16) -> Option<Self> {
+        let known = NAMES.iter().find(|(_, own, _)| *own == code);
+        known.map(|(sample, ..)| *sample)
+    }
+
     pub(crate) fn is_whole(self) -> bool {
         !matches!(self, Sample::F32 | Sample::F64)
     }

@@ -241,7 +241,12 @@ fn nrrd_raw_and_gzipped_behind_and_beside() {
         ("uchar", "raw", "data file: LIST\n../a.raw\n", "'..'"),
         ("uchar", "raw", "byte skip: -2\n\n", "byte skip"),
         ("uchar", "raw", "line skip: 2\n\n", "skips lines"),
-        ("uchar", "raw", "nonsense\n\n", "KEY: VALUE"),
+        (
+            "uchar",
+            "raw",
+            "nonsense\n\n",
+            "line 7 of its header has no ':'",
+        ),
         ("uchar", "raw", "\n", "truncated"),
         ("block", "raw", "\n", "type is 'block'"),
         ("uchar", "bzip2", "\n", "compressed bytes are stored"),
