@@ -1,35 +1,9 @@
-//! The adhesive of a file, voxels or points.
+//! The liquid points of a file.
 
 use crate::error::Error;
-use crate::header::Material;
 use crate::read::ParticleFile;
 
 impl ParticleFile {
-    /// Calls `visit(position in m, volume in m3)` for every material point of the adhesive,
-    /// whether the file stores it as voxels (centre and volume of the voxel) or as liquid
-    /// points; always in the order of the file.
-    ///
-    /// # Errors
-    /// When an array is damaged, or liquid points come without position or volume.
-    pub fn for_each_adhesive(&self, mut visit: impl FnMut([f64; 3], f64)) -> Result<(), Error> {
-        for (index, block) in self.header().blocks.iter().enumerate() {
-            if block.material != Material::Adhesive {
-                continue;
-            }
-            let (block, bits) = self.block(index)?;
-            let volume = block.voxel_m.powi(3);
-            let centre = |a: usize, i: usize| block.origin_m[a] + (i as f64 + 0.5) * block.voxel_m;
-            bits.for_each(|index| visit(std::array::from_fn(|a| centre(a, index[a])), volume));
-        }
-        if self.header().particles > 0 {
-            let positions = self.vectors("position")?;
-            for (position, &volume) in positions.iter().zip(self.column::<f32>("volume")?) {
-                visit(position.map(f64::from), f64::from(volume));
-            }
-        }
-        Ok(())
-    }
-
     /// Positions (m) and volumes (m3) of the liquid points.
     ///
     /// # Errors
