@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use particle_file::{BitGrid, Material, ParticleFile};
 
+use crate::lattice::pieces;
 use crate::{Phase, Segmented};
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
@@ -88,8 +89,11 @@ impl Segmented {
                 self.phase(voxel)
             };
             let section: Vec<Phase> = (0..size[0] * size[1]).map(phase).collect();
-            let found = pieces_of(&section, size[0]);
-            sum = [sum[0] + found[0], sum[1] + found[1]];
+            for (phase, piece) in pieces(&section, size[0], false) {
+                if let (Some(sum), PIECE..) = (sum.get_mut(phase as usize), piece.len()) {
+                    *sum += 1;
+                }
+            }
         }
         sum
     }
@@ -111,38 +115,4 @@ pub fn swapped_in_file(file: &ParticleFile) -> Option<String> {
         };
         segmented.swapped()
     })
-}
-
-/// Pieces of void and of wood in a section of rows of `width`.
-fn pieces_of(section: &[Phase], width: usize) -> [usize; 2] {
-    let mut seen = vec![false; section.len()];
-    let mut pieces = [0; 2];
-    let mut waiting = Vec::new();
-    for start in 0..section.len() {
-        let phase = section[start];
-        let Some(pieces) = pieces.get_mut(phase as usize).filter(|_| !seen[start]) else {
-            continue;
-        };
-        seen[start] = true;
-        waiting.push(start);
-        let mut size = 0;
-        while let Some(i) = waiting.pop() {
-            size += 1;
-            let x = i % width;
-            let beside = [
-                (x > 0).then(|| i - 1),
-                (x + 1 < width).then(|| i + 1),
-                i.checked_sub(width),
-                Some(i + width).filter(|i| *i < section.len()),
-            ];
-            for next in beside.into_iter().flatten() {
-                if !seen[next] && section[next] == phase {
-                    seen[next] = true;
-                    waiting.push(next);
-                }
-            }
-        }
-        *pieces += usize::from(size >= PIECE);
-    }
-    pieces
 }

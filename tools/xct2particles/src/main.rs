@@ -7,14 +7,16 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use arguments::{Arguments, GreyLevels};
+use arguments::Arguments;
 use bondline::{Placed, Specimen};
 use cli::{Failure, Output, Progress};
 use figures::{Cut, Page, Position, Slices};
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use rayon::prelude::*;
 use units::Axis;
-use voxels::{Crop, Histogram, Phases, Proposal, Segmented, Source, Stack, VoxelEdge, segment};
+use voxels::{
+    Crop, GreyLevels, Histogram, Phases, Proposal, Segmented, Source, Stack, VoxelEdge, segment,
+};
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
@@ -92,10 +94,7 @@ fn proposal(
             (histogram.values()).try_for_each(|(grey, voxels)| writeln!(out, "{grey},{voxels}"))
         })?;
     }
-    let proposed = match arguments.grey {
-        Some(GreyLevels::AutoWood) => histogram.otsu_of_wood(),
-        _ => histogram.otsu(),
-    };
+    let proposed = histogram.propose(arguments.grey == Some(GreyLevels::AutoWood));
     report::proposal(&proposed);
     Ok(Some(proposed))
 }
