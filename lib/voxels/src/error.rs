@@ -16,7 +16,8 @@ pub enum Error {
 
 /// What is said of a file at whose content a decoder gave up.
 pub(crate) fn damaged(cause: impl Display) -> String {
-    format!("the file is cut or damaged ({cause})")
+    // Some decoders end their sentences with a line.
+    format!("the file is cut or damaged ({})", cause.to_string().trim())
 }
 
 impl Error {

@@ -26,12 +26,13 @@ impl Segmented {
     /// A sentence where wood and void, or void and adhesive, look exchanged.
     pub fn swapped(&self) -> Option<String> {
         let across = (0..3).find(|&axis| self.holds_a_void_bond_line(axis));
-        self.is_void_wood().or(across.map(|axis| {
+        let adhesive = across.map(|axis| {
             format!(
                 "void and adhesive look exchanged: adhesive fills the pores in both outer quarters along {} and void what lies between them, as adhesive in a bond does",
                 NAMES[axis]
             )
-        }))
+        });
+        adhesive.or_else(|| self.is_void_wood())
     }
 
     /// Whether adhesive lies along an axis as void does in a bond, and void as adhesive.

@@ -166,7 +166,12 @@ fn jpeg_slices_give_grey_values() {
     }
     // The decoder makes up what a cut file lacks.
     let whole = jpeg(&page(0, |l| 80 * l), 90);
-    assert_refused("a.jpg", &whole[..30], &["a.jpg'", "cut or damaged ("]);
+    let (_folder, path) = stored("a.jpg", &whole[..3]);
+    let said = refusal(&path);
+    assert!(
+        !said.contains('\n') && said.contains("cut or damaged ("),
+        "{said}"
+    );
     for cut in [2, 20, 60] {
         let (_folder, path) = stored("a.jpg", &whole[..whole.len() - cut]);
         let read = open(&path).read_page(0, &mut Vec::new());
