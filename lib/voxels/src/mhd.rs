@@ -17,18 +17,17 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     // It is the last one by definition.
     let header = Fields::read(head, '=', |key, _| key == "elementdatafile")?;
     let field = |key: &str| header.get(&[key]);
-    let needed = |key: &str| header.needed(key);
     let wrong = |line, accepted: &str| format!("line {line} of its header: accepted is {accepted}");
     // As its own library reads them.
     let is = |key: &str, first: [char; 3]| field(key).is_some_and(|(v, _)| v.starts_with(first));
     let flag = |key: &str| is(key, ['T', 't', '1']);
 
-    let (value, of_value) = needed("ElementDataFile")?;
-    let (dims, line) = needed("DimSize")?;
+    let (value, of_value) = header.needed("ElementDataFile")?;
+    let (dims, line) = header.needed("DimSize")?;
     let axes = whole_numbers(dims).and_then(|axes| axes.try_into().ok());
     let [width, height, pages] =
         axes.ok_or_else(|| wrong(line, "three numbers of voxels along x, y, z"))?;
-    let (kind, line) = needed("ElementType")?;
+    let (kind, line) = header.needed("ElementType")?;
     let sample = Sample::named(kind).ok_or_else(|| {
         wrong(line, "MET_ and UCHAR, CHAR, USHORT, SHORT, UINT, INT, ULONG, LONG, ULONG_LONG, LONG_LONG, FLOAT or DOUBLE")
     })?;

@@ -51,9 +51,12 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
         return Err("it skips lines of its data file; accepted is a skip of bytes".into());
     }
-    let files = match data_file {
-        None => Vec::new(),
-        Some(value) => data_files(path, value, &head[header.end..], "data file")?,
+    let (files, offset) = match data_file {
+        None => (Vec::new(), header.end as u64),
+        Some(value) => (
+            data_files(path, value, &head[header.end..], "data file")?,
+            0,
+        ),
     };
     let skip = match field(&["byte skip", "byteskip"]) {
         None => Some(0),
@@ -67,11 +70,7 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
         raw: Raw {
             format: PageFormat::new([width, height], sample, channels),
             pages,
-            offset: if files.is_empty() {
-                header.end as u64
-            } else {
-                0
-            },
+            offset,
             big_endian,
         },
         at_end: skip.is_none(),
