@@ -26,6 +26,8 @@ pub(crate) struct Sheet<'a> {
     pub(crate) name: &'a str,
     pub(crate) detail: &'a str,
     pub(crate) axes: Option<[Axis; 2]>,
+    /// It stays in a row with the one before it.
+    pub(crate) beside: bool,
 }
 
 impl<'a> Sheet<'a> {
@@ -35,6 +37,7 @@ impl<'a> Sheet<'a> {
             name,
             detail: "",
             axes,
+            beside: false,
         }
     }
 }
@@ -127,6 +130,8 @@ impl Panels {
                 4 => 2,
                 n => n.min(3),
             };
+            let together = 1 + usize::from(sheets.iter().any(|sheet| sheet.beside));
+            let columns = columns.next_multiple_of(together);
             return Self::in_columns(sheets, layout, columns, natural, COLUMN);
         };
         let fitted = |columns: usize| {

@@ -41,6 +41,8 @@ pub(crate) enum Pixel {
     Wood,
     /// With its pressure (Pa) where that is shown.
     Adhesive(f32),
+    /// Brightness in place of the phase.
+    Grey(u8),
 }
 
 /// Most pixels along an edge of a slice.
@@ -54,7 +56,7 @@ pub(crate) const KEY: [(&str, [u8; 3]); 3] =
 pub(crate) const GRID: RGBAColor = RGBAColor(0, 60, 140, 0.8);
 
 impl Section {
-    /// The slice through what `file` holds.
+    /// The slice through what `file` holds or, where there are, the `greys` of its voxels in storage order.
     ///
     /// # Errors
     /// [`Error::Data`] for a file without the pressure that is to be shown, [`Error::Request`] for a
@@ -64,6 +66,7 @@ impl Section {
         label: &str,
         cut: Cut,
         colouring: Colouring,
+        greys: Option<&[f64]>,
     ) -> Result<Self, Error> {
         let labels = LabelVolume::of(file)?;
         let header = file.header();
@@ -97,11 +100,16 @@ impl Section {
             }
             _ => None,
         };
-        let (size, pixels) = raster(&labels, axes, layer, pressures.as_deref());
+        let (shades, ends) = greys.map(stretched).unwrap_or_default();
+        let (size, pixels) = raster(&labels, axes, layer, pressures.as_deref(), &shades);
         let time = time_of(file).map_or(String::new(), |time| time + ", ");
         Ok(Self {
             label: label.to_owned(),
-            detail: format!("{time}{}\u{a0}=\u{a0}{:.1}\u{a0}µm", cut.axis, at * 1e6),
+            detail: format!(
+                "{time}{}\u{a0}=\u{a0}{:.1}\u{a0}µm{ends}",
+                cut.axis,
+                at * 1e6
+            ),
             low: axes.map(|a| low[a]),
             corner: axes.map(|a| header.box_min_m[a]),
             edges: axes.map(|a| labels.dims[a] as f64 * labels.voxel_m),
@@ -122,6 +130,7 @@ impl Section {
             name: &self.label,
             detail: &self.detail,
             axes: Some(self.axes()),
+            beside: matches!(self.pixels[0], Pixel::Grey(_)),
         }
     }
 
@@ -141,6 +150,7 @@ impl Section {
         let colour = |pixel: &Pixel| match (pixel, shades) {
             (Pixel::Void, _) => [255; 3],
             (Pixel::Wood, _) => WOOD,
+            (Pixel::Grey(grey), _) => [*grey; 3],
             (Pixel::Adhesive(_), None) => ADHESIVE,
             (Pixel::Adhesive(pressure), Some(shades)) => {
                 viridis(shades.share(f64::from(*pressure) * 1e-6))
@@ -225,6 +235,7 @@ fn raster(
     [across, up]: [usize; 2],
     layer: usize,
     pressures: Option<&[f32]>,
+    shades: &[u8],
 ) -> ([usize; 2], Vec<Pixel>) {
     let counts = [across, up].map(|a| labels.dims[a]);
     let every = counts[0].max(counts[1]).div_ceil(MOST_PIXELS);
@@ -232,14 +243,13 @@ fn raster(
     let pixel = |column: usize, row: usize| {
         let mut voxel = [layer; 3];
         (voxel[across], voxel[up]) = (column * every, row * every);
-        match labels.label(voxel) {
-            voxels::WOOD => Pixel::Wood,
-            voxels::ADHESIVE => {
-                // Storage order: x before y before z.
-                let [u, v] = [across.min(up), across.max(up)];
-                let at = voxel[v] * labels.dims[u] + voxel[u];
-                Pixel::Adhesive(pressures.map_or(0.0, |p| p[at]))
-            }
+        // Storage order: x before y before z.
+        let [u, v] = [across.min(up), across.max(up)];
+        let at = voxel[v] * labels.dims[u] + voxel[u];
+        match (shades.get(at), labels.label(voxel)) {
+            (Some(shade), _) => Pixel::Grey(*shade),
+            (_, voxels::WOOD) => Pixel::Wood,
+            (_, voxels::ADHESIVE) => Pixel::Adhesive(pressures.map_or(0.0, |p| p[at])),
             _ => Pixel::Void,
         }
     };
@@ -249,6 +259,21 @@ fn raster(
         size,
         places.map(|(column, row)| pixel(column, row)).collect(),
     )
+}
+
+/// The brightness of grey values between the 0.5 and 99.5 percentiles of the finite ones, and the two in words.
+fn stretched(greys: &[f64]) -> (Vec<u8>, String) {
+    const PER_CENT: [f64; 2] = [0.5, 99.5];
+    let mut sorted = greys.to_vec();
+    sorted.retain(|grey| grey.is_finite());
+    sorted.sort_unstable_by(f64::total_cmp);
+    let last = sorted.len().saturating_sub(1) as f64;
+    let at = |share: f64| sorted.get((share / 100.0 * last).round() as usize);
+    let [low, high] = PER_CENT.map(|share| at(share).map_or(0.0, |grey| *grey));
+    // A number that is none becomes black.
+    let shade = |grey: &f64| (255.0 * (grey - low) / (high - low)).clamp(0.0, 255.0) as u8;
+    let ends = format!(", grey {} to {}", low as f32, high as f32);
+    (greys.iter().map(shade).collect(), ends)
 }
 
 /// The time of a state in words.

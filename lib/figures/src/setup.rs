@@ -42,7 +42,7 @@ pub fn setup(specimen: &Labelled, bond: &Labelled, page: Page) -> Result<Drawing
         axis: Axis::ALL[stack.front()],
         position: Position::Share(0.5),
     };
-    let slice = |label, file| Section::of(file, label, cut, Colouring::Plain);
+    let slice = |label, file| Section::of(file, label, cut, Colouring::Plain, None);
     let mut parted = slice("c) adherends parted, no adhesive", &pressed)?;
     for pixel in &mut parted.pixels {
         if let Pixel::Adhesive(_) = pixel {

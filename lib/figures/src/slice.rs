@@ -63,18 +63,27 @@ impl Slices {
     pub fn read(states: &[Labelled], cut: Cut, colouring: Colouring) -> Result<Self, Error> {
         let section = |state: &Labelled| {
             let file = ParticleFile::open(&state.path)?;
-            Section::of(&file, &state.label, cut, colouring)
+            Section::of(&file, &state.label, cut, colouring, None)
         };
         Self::of(states.iter().map(section), colouring)
     }
 
-    /// A panel for each of several cuts through what `file`, called `label`, holds.
+    /// A panel for each of several cuts through what `file`, called `label`, holds, beside one of the
+    /// grey values in storage order where a cut has such.
     ///
     /// # Errors
     /// As [`Slices::read`].
-    pub fn through(file: &ParticleFile, label: &str, cuts: &[Cut]) -> Result<Self, Error> {
-        let section = |&cut| Section::of(file, label, cut, Colouring::Plain);
-        Self::of(cuts.iter().map(section), Colouring::Plain)
+    pub fn through(
+        file: &ParticleFile,
+        label: &str,
+        cuts: &[(Cut, Option<&[f64]>)],
+    ) -> Result<Self, Error> {
+        let panels = (cuts.iter()).flat_map(|(cut, greys)| {
+            let greys = greys.map(|greys| (*cut, Some(greys)));
+            greys.into_iter().chain([(*cut, None)])
+        });
+        let section = |(cut, greys)| Section::of(file, label, cut, Colouring::Plain, greys);
+        Self::of(panels.map(section), Colouring::Plain)
     }
 
     fn of(

@@ -119,6 +119,7 @@ impl Views {
                 name: &panel.label,
                 detail: &panel.detail,
                 axes: None,
+                beside: false,
             })
             .collect();
         let layout = Layout {

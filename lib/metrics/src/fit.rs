@@ -5,14 +5,12 @@ use std::fmt;
 use units::Axis;
 
 use crate::State;
-use crate::state::Across;
+use crate::openings::{Middle, Openings};
 
 /// Fits are repeated because the first split of wood into below and above is level; tilts that a box can hold settle in a few.
 const ROUNDS: usize = 8;
-/// Largest part of the open columns that shows surfaces of both adherends.
-const SURFACES: f64 = 0.25;
-/// Voxels by which the widths of openings differ where they are the same: they are whole voxels apart, but for rounding.
-const SAME: f64 = 1e-3;
+/// Least part of them of which a fit is trusted: where wood meets wood in fewer, lumens are taken for surfaces.
+const TRUSTED: f64 = 0.04;
 
 /// A plane across the bond: coordinate along the normal = `level` + `slope` . (u - centre).
 #[derive(Clone, Debug, PartialEq)]
@@ -48,9 +46,6 @@ impl fmt::Display for Tilt {
         )
     }
 }
-
-/// A column's place across the bond and the middle of its opening, m.
-type Middle = ([f64; 2], f64);
 
 impl Plane {
     /// Coordinate along the normal at the centre of the bond area, m.
@@ -98,7 +93,7 @@ impl Plane {
         (point[self.normal.index()] - self.coordinate(uv)) / self.slant()
     }
 
-    fn coordinate(&self, uv: [f64; 2]) -> f64 {
+    pub(crate) fn coordinate(&self, uv: [f64; 2]) -> f64 {
         self.level
             + self.slope[0] * (uv[0] - self.centre[0])
             + self.slope[1] * (uv[1] - self.centre[1])
@@ -122,7 +117,7 @@ impl Plane {
         mut self,
         middles: &[Middle],
         state: &State,
-        opening: f64,
+        (part, opening): (f64, f64),
         kept: bool,
     ) -> Result<Self, String> {
         let across = state.across();
@@ -187,6 +182,11 @@ impl Plane {
                 1e6 * unsure,
                 1e6 * opening
             ))
+        } else if part < TRUSTED {
+            Some(format!(
+                "{said} and hardly known: walls so thin meet across {:.1} % of the bond area alone, and lumens are taken for surfaces",
+                1e2 * part
+            ))
         } else {
             kept.then_some(said)
         };
@@ -244,72 +244,7 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, String> {
         (plane, openings) = (next, next_openings);
     }
     let (middles, opening) = openings.narrowest(&across);
-    plane.with_errors(&middles, state, opening, kept)
-}
-
-/// The openings between the adherends along a plane.
-struct Openings {
-    /// Highest wood below the plane in each column, m.
-    below: Vec<f64>,
-    /// Lowest wood above the plane in each column, m.
-    above: Vec<f64>,
-    /// Columns in which the plane runs between wood, the narrowest opening first.
-    open: Vec<usize>,
-    /// Part of them that counts.
-    part: f64,
-}
-
-impl Openings {
-    fn along(state: &State, across: &Across, plane: &Plane) -> Self {
-        let n = state.normal.index();
-        let columns = across.columns[0] * across.columns[1];
-        let mut below = vec![f64::NEG_INFINITY; columns];
-        let mut above = vec![f64::INFINITY; columns];
-        let (mut wood, mut voxels) = (0, 0);
-        for block in state.wood_blocks() {
-            wood += block.bits.count();
-            voxels += block.bits.dims().iter().product::<usize>();
-            let half = 0.5 * block.voxel_m;
-            block.bits.for_each(|index| {
-                let centre = block.centre_m(index);
-                let column = across.column(centre);
-                let height = plane.coordinate(across.centre_m(column));
-                if centre[n] < height {
-                    below[column] = below[column].max(centre[n] + half);
-                } else {
-                    above[column] = above[column].min(centre[n] - half);
-                }
-            });
-        }
-        let width = |c: usize| above[c] - below[c];
-        let mut open: Vec<usize> = (0..columns)
-            .filter(|&c| width(c).is_finite() && width(c) > 0.5 * across.width_m)
-            .collect();
-        open.sort_unstable_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)));
-        let fraction = wood as f64 / voxels.max(1) as f64;
-        Self {
-            below,
-            above,
-            open,
-            part: (fraction * fraction).min(SURFACES),
-        }
-    }
-
-    /// Place and middle of the narrowest openings, and of those as narrow; the width of the widest of them.
-    fn narrowest(&self, across: &Across) -> (Vec<Middle>, f64) {
-        let width = |c: usize| self.above[c] - self.below[c];
-        let last = (self.part * self.open.len() as f64) as usize;
-        let Some(&last) = self.open.get(last) else {
-            return (Vec::new(), 0.0);
-        };
-        let widest = width(last) + SAME * across.width_m;
-        let middles = self
-            .open
-            .iter()
-            .take_while(|&&c| width(c) <= widest)
-            .map(|&c| (across.centre_m(c), 0.5 * (self.below[c] + self.above[c])));
-        (middles.collect(), width(last))
-    }
+    plane.with_errors(&middles, state, (openings.part, opening), kept)
 }
 
 /// Level at `centre` and slopes of the least-squares plane. A direction of one of the `columns` (plane strain) has no slope.

@@ -7,29 +7,16 @@ use particle_file::BitGrid;
 pub fn without_islands(adhesive: Placed, least: usize) -> BitGrid {
     let [nx, ny, nz] = adhesive.bits.dims();
     let mut kept = BitGrid::new([nx, ny, nz]);
-    let mut left = BitGrid::new([nx, ny, nz]);
-    adhesive.bits.for_each(|[x, y, z]| left.set(x, y, z, true));
-    let mut island = Vec::new();
-    adhesive.bits.for_each(|[x, y, z]| {
-        island.clear();
-        let mut next = 0;
-        let mut take = |x, y, island: &mut Vec<[usize; 2]>| {
-            if left.get(x, y, z) {
-                left.set(x, y, z, false);
-                island.push([x, y]);
-            }
-        };
-        take(x, y, &mut island);
-        while let Some(&[x, y]) = island.get(next) {
-            next += 1;
-            for v in y.saturating_sub(1)..(y + 2).min(ny) {
-                (x.saturating_sub(1)..(x + 2).min(nx)).for_each(|u| take(u, v, &mut island));
-            }
+    for z in 0..nz {
+        let set = |i| adhesive.bits.get(i % nx, i / nx, z);
+        let section: Vec<bool> = (0..nx * ny).map(set).collect();
+        let islands = voxels::pieces(&section, nx, true).into_iter();
+        for (_, island) in islands.filter(|(set, island)| *set && island.len() >= least) {
+            island
+                .into_iter()
+                .for_each(|i| kept.set(i % nx, i / nx, z, true));
         }
-        if island.len() >= least {
-            island.iter().for_each(|&[x, y]| kept.set(x, y, z, true));
-        }
-    });
+    }
     kept
 }
 

@@ -17,6 +17,7 @@ mod fit;
 mod islands;
 mod level;
 mod map;
+mod openings;
 mod penetration;
 mod pores;
 mod quantile;

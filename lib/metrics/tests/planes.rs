@@ -134,6 +134,13 @@ fn a_plane_that_is_not_known_is_refused() {
         _ => 'w',
     }));
     assert!(bare.contains("a quarter of the bond area"), "{bare}");
+    // Walls of one voxel: of 24 fits in rough ones every twelve, 16 told no doubt, and tilts up to 5 degrees off.
+    let thin = doubted(&boxed(|[x, y, _]| match y {
+        28..32 => 'a',
+        _ if x % 6 == 0 => 'w',
+        _ => ' ',
+    }));
+    assert!(thin.contains("2.4 % of the bond area"), "{thin}");
 }
 
 /// A step between the narrowest columns, along which a plane would run into the wood beside them. How far the level plane is

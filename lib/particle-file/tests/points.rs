@@ -1,4 +1,4 @@
-//! The material points: order-free sum and the adhesive in both of its forms.
+//! The order-free sum of material points and blocks.
 
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
 
@@ -70,40 +70,4 @@ fn the_sum_of_blocks_knows_place_and_material_but_not_their_order() {
     let x = glue.view().set_in_row(4, 4).last().unwrap();
     fewer.set(x, 4, 4, false);
     assert_ne!(both, sum(draft().block(a(), &wood).block(b(), &fewer)));
-}
-
-#[test]
-fn adhesive_is_the_same_as_voxels_and_as_points() {
-    let glue = BitGrid::from_fn([70, 4, 3], |x, y, z| (x + y + z) % 3 == 0);
-    let wood = BitGrid::from_fn([70, 4, 3], |x, y, z| (x + y + z) % 3 == 1);
-    let origin = [1e-5, -2e-5, 0.0];
-    let block = |name, material, bits| Block::new(name, material, origin, VOXEL, bits);
-    let draft = |kind| Draft::new(header(kind)).block(block("wood", Material::Rigid, &wood), &wood);
-    let parcels = |draft: Draft| {
-        let mut found: Vec<([f64; 3], f64)> = Vec::new();
-        let push = |position, volume| found.push((position, volume));
-        open(draft).for_each_adhesive(push).unwrap();
-        found
-    };
-    let adhesive = block("adhesive", Material::Adhesive, &glue);
-    let voxels = parcels(draft(Kind::Specimen).block(adhesive, &glue));
-    let mut expected = Vec::new();
-    glue.view().for_each(|index| {
-        let place: [f64; 3] = std::array::from_fn(|a| origin[a] + (index[a] as f64 + 0.5) * VOXEL);
-        expected.push((place, VOXEL.powi(3)));
-    });
-    assert_eq!(voxels, expected);
-
-    let position: Vec<f32> = voxels
-        .iter()
-        .flat_map(|(p, _)| p.map(|x| x as f32))
-        .collect();
-    let volume: Vec<f32> = voxels.iter().map(|(_, v)| *v as f32).collect();
-    let liquid = draft(Kind::State).column("position", 3, &position);
-    let points = parcels(liquid.column("volume", 1, &volume));
-    assert_eq!(points.len(), voxels.len());
-    for (a, b) in points.iter().zip(&voxels) {
-        assert!((a.1 / b.1 - 1.0).abs() < 1e-6);
-        assert!((0..3).all(|i| (a.0[i] - b.0[i]).abs() < 1e-10));
-    }
 }

@@ -38,7 +38,7 @@ fn numbered(value: &str) -> Option<Vec<String>> {
     // No flag or width prints as width 0.
     let width = format!("0{width}").parse().ok();
     let width = width.filter(|width: &usize| *width < 20)?;
-    let padded = rest.starts_with('0');
+    let width = if rest.starts_with('0') { width } else { 0 };
     let numbers: Option<Vec<u64>> = words.map(|n| n.parse().ok()).collect();
     let (first, last, step) = match numbers?[..] {
         [first, last] => (first, last, 1),
@@ -49,10 +49,7 @@ fn numbered(value: &str) -> Option<Vec<String>> {
     if step == 0 || last < first || (last - first) / step >= limits::PER_AXIS {
         return None;
     }
-    let name = |n: u64| match padded {
-        true => format!("{before}{n:0width$}{behind}"),
-        false => format!("{before}{n}{behind}"),
-    };
+    let name = |n: u64| format!("{before}{n:0width$}{behind}");
     Some((first..=last).step_by(step as usize).map(name).collect())
 }
 

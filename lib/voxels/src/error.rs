@@ -14,6 +14,12 @@ pub enum Error {
     Usage(String),
 }
 
+/// What is said of a file at whose content a decoder gave up.
+pub(crate) fn damaged(cause: impl Display) -> String {
+    // Some decoders end their sentences with a line.
+    format!("the file is cut or damaged ({})", cause.to_string().trim())
+}
+
 impl Error {
     /// Whether other arguments, not another file, would help.
     pub fn is_usage(&self) -> bool {

@@ -223,7 +223,7 @@ impl Counted {
                 let mut page = Vec::new();
                 stack.read_page(z, &mut page)?;
                 let rows: Vec<&[u8]> = crop.rows(format, &page).collect();
-                for value in rows.iter().flat_map(|row| values(format, row)) {
+                for value in rows.iter().flat_map(|row| format.values(row)) {
                     if let Some(place) = place(value) {
                         counted.counts[place] += 1;
                     }
@@ -248,17 +248,11 @@ impl Counted {
     }
 }
 
-fn values(format: PageFormat, row: &[u8]) -> impl Iterator<Item = f64> {
-    let sample = format.sample;
-    row.chunks_exact(sample.bytes())
-        .map(move |pixel| sample.value(pixel))
-}
-
 /// The bits of the value at all four corners of a page, and the voxels of it from which each row
 /// begins and with which it ends.
 fn corners(format: PageFormat, rows: &[&[u8]]) -> Option<(u64, u64)> {
     let ends = [rows.first()?, rows.last()?].map(|row| {
-        let mut row = values(format, row);
+        let mut row = format.values(row);
         let first = row.next();
         [first, row.last().or(first)]
     });
@@ -269,7 +263,7 @@ fn corners(format: PageFormat, rows: &[&[u8]]) -> Option<(u64, u64)> {
     let same = |v: &f64| *v == value;
     let bytes = format.sample.bytes();
     let padded = rows.iter().map(|row| {
-        let before = values(format, row).take_while(same).count();
+        let before = format.values(row).take_while(same).count();
         let behind = row[before * bytes..].rchunks_exact(bytes);
         let behind = behind.map(|pixel| format.sample.value(pixel));
         before + behind.take_while(same).count()

@@ -10,6 +10,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::colours::{self, Shown};
+use crate::error::damaged;
 use crate::kind::Kind;
 use crate::sample::{PageFormat, Sample, to_native, unpack_bits};
 use crate::source::Source;
@@ -86,14 +87,14 @@ fn jpeg(bytes: &[u8], page: Option<&mut Vec<u8>>) -> Read {
     let options = DecoderOptions::default().set_strict_mode(false);
     let options = options.set_max_width(usize::MAX).set_max_height(usize::MAX);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-    decoder.decode_headers()?;
+    decoder.decode_headers().map_err(damaged)?;
     let info = decoder.info().ok_or("it has no frame")?;
     let size = [info.width.into(), info.height.into()];
     let format = format_of(size, Sample::U8, 1)?;
     if let Some(page) = page {
         decoder.set_options(options.jpeg_set_out_colorspace(ColorSpace::Luma));
         page.resize(format.page_bytes().unwrap_or(0), 0);
-        decoder.decode_into(page)?;
+        decoder.decode_into(page).map_err(damaged)?;
     }
     Ok((format, Shown::GREY))
 }
@@ -111,7 +112,7 @@ fn ends_as_jpeg(bytes: &[u8]) -> bool {
 fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Read {
     let mut decoder = png::Decoder::new(content);
     decoder.set_transformations(png::Transformations::IDENTITY);
-    let mut reader = decoder.read_info()?;
+    let mut reader = decoder.read_info().map_err(damaged)?;
     let info = reader.info();
     let (width, height) = info.size();
     let frames = info.animation_control.map_or(1, |a| a.num_frames);
@@ -134,7 +135,7 @@ fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Read {
         return Ok((format, shown));
     };
     page.resize(reader.output_buffer_size().ok_or("it is too large")?, 0);
-    reader.next_frame(page)?;
+    reader.next_frame(page).map_err(damaged)?;
     to_native(page, sample, true);
     if bits < 8 {
         let rows = page.chunks_exact((format.width * bits).div_ceil(8).max(1));

@@ -205,7 +205,7 @@ impl<'a> LabelVolume<'a> {
     /// # Errors
     /// What `out` says.
     pub fn write_tiff(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut tiff = TiffWriter::new(out, self.dims, self.voxel_m)?;
+        let mut tiff = TiffWriter::new(out, self.dims, self.voxel_m, "")?;
         self.pages(|page| tiff.write_page(page))?;
         tiff.finish()
     }

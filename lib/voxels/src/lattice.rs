@@ -26,3 +26,34 @@ pub(crate) fn around(voxel: Voxel, dims: Voxel) -> impl Iterator<Item = Voxel> {
             .flat_map(move |y| xs.clone().map(move |x| [x, y, z]))
     })
 }
+
+/// The pieces of a section of rows of `width` in which one value hangs together, by edges of pixels or by `corners` too: the
+/// value and the places of each.
+pub fn pieces<T: Copy + PartialEq>(
+    section: &[T],
+    width: usize,
+    corners: bool,
+) -> Vec<(T, Vec<usize>)> {
+    let mut seen = vec![false; section.len()];
+    let mut found = Vec::new();
+    for start in 0..section.len() {
+        if std::mem::replace(&mut seen[start], true) {
+            continue;
+        }
+        let mut piece = vec![start];
+        let mut next = 0;
+        while let Some(&i) = piece.get(next) {
+            next += 1;
+            let (x, y) = (i % width, i / width);
+            for v in y.saturating_sub(1)..(y + 2).min(section.len() / width) {
+                let beside = x.saturating_sub(1)..(x + 2).min(width);
+                let beside = beside.filter(|u| corners || *u == x || v == y);
+                let alike = beside.map(|u| v * width + u);
+                let alike = alike.filter(|at| section[*at] == section[start]);
+                piece.extend(alike.filter(|at| !std::mem::replace(&mut seen[*at], true)));
+            }
+        }
+        found.push((section[start], piece));
+    }
+    found
+}

@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use crate::beside::data_files;
-use crate::pixels::{Coding, Described, whole_numbers};
+use crate::fields::{Fields, whole_numbers};
+use crate::pixels::{Coding, Described};
 use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
 use crate::voxel_size::{VoxelSize, decimal};
@@ -13,23 +14,21 @@ use crate::voxel_size::{VoxelSize, decimal};
 const SPACING: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 
 pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
-    let (fields, end) = fields(head)?;
-    let field = |key: &str| {
-        let found = fields.iter().find(|(own, ..)| own == key);
-        found.map(|(_, value, line)| (value.as_str(), *line))
-    };
+    // It is the last one by definition.
+    let header = Fields::read(head, '=', |key, _| key == "elementdatafile")?;
+    let field = |key: &str| header.get(&[key]);
     let wrong = |line, accepted: &str| format!("line {line} of its header: accepted is {accepted}");
-    let needed = |key: &str| field(key).ok_or_else(|| format!("its header has no {key}"));
     // As its own library reads them.
     let is = |key: &str, first: [char; 3]| field(key).is_some_and(|(v, _)| v.starts_with(first));
     let flag = |key: &str| is(key, ['T', 't', '1']);
 
-    let (dims, line) = needed("DimSize")?;
+    let (value, of_value) = header.needed("ElementDataFile")?;
+    let (dims, line) = header.needed("DimSize")?;
     let axes = whole_numbers(dims).and_then(|axes| axes.try_into().ok());
     let [width, height, pages] =
         axes.ok_or_else(|| wrong(line, "three numbers of voxels along x, y, z"))?;
-    let (kind, line) = needed("ElementType")?;
-    let sample = sample_of(kind).ok_or_else(|| {
+    let (kind, line) = header.needed("ElementType")?;
+    let sample = Sample::named(kind).ok_or_else(|| {
         wrong(line, "MET_ and UCHAR, CHAR, USHORT, SHORT, UINT, INT, ULONG, LONG, ULONG_LONG, LONG_LONG, FLOAT or DOUBLE")
     })?;
     let channels = match field("ElementNumberOfChannels") {
@@ -37,15 +36,14 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
         Some(("3", _)) => 3,
         Some(_) => return Err("its pixels have neither 1 nor 3 channels".into()),
     };
-    let (value, line) = needed("ElementDataFile")?;
     let local = value == "LOCAL";
     if value.is_empty() {
-        return Err(wrong(line, "a file name, LOCAL or LIST"));
+        return Err(wrong(of_value, "a file name, LOCAL or LIST"));
     }
     let skip = field("HeaderSize").filter(|_| !local);
     let at_end = skip.is_some_and(|(n, _)| n == "-1");
     let offset = match skip {
-        _ if local => end as u64,
+        _ if local => header.end as u64,
         Some((n, line)) if !at_end => n
             .parse()
             .map_err(|_| wrong(line, "a number from 0, or -1"))?,
@@ -53,7 +51,7 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     };
     let files = match local {
         true => Vec::new(),
-        false => data_files(path, value, &head[end..], "ElementDataFile")?,
+        false => data_files(path, value, &head[header.end..], "ElementDataFile")?,
     };
     Ok(Described {
         raw: Raw {
@@ -71,50 +69,6 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
         skip: 0,
         files,
         voxel_size: voxel_size(field("ElementSpacing"), field("DistanceUnits"))?,
-    })
-}
-
-/// Key, value and number of a line.
-type Field = (String, String, usize);
-
-/// `key = value` lines with their line numbers up to ElementDataFile, which is the last one
-/// by definition, and the byte behind it.
-fn fields(head: &[u8]) -> Result<(Vec<Field>, usize), String> {
-    let mut fields = Vec::new();
-    let mut end = 0;
-    for (i, line) in head.split_inclusive(|b| *b == b'\n').enumerate() {
-        end += line.len();
-        let (text, line) = (String::from_utf8_lossy(line), i + 1);
-        if text.trim().is_empty() {
-            continue;
-        }
-        let (key, value) = text
-            .split_once('=')
-            .ok_or_else(|| format!("line {line} of its header is not KEY = VALUE"))?;
-        let [key, value] = [key, value].map(|text| text.trim().to_owned());
-        let last = key == "ElementDataFile";
-        fields.push((key, value, line));
-        if last {
-            return Ok((fields, end));
-        }
-    }
-    Err("its header has no ElementDataFile".into())
-}
-
-fn sample_of(kind: &str) -> Option<Sample> {
-    Some(match kind {
-        "MET_UCHAR" => Sample::U8,
-        "MET_CHAR" => Sample::I8,
-        "MET_USHORT" => Sample::U16,
-        "MET_SHORT" => Sample::I16,
-        // Four bytes wherever they are written.
-        "MET_UINT" | "MET_ULONG" => Sample::U32,
-        "MET_INT" | "MET_LONG" => Sample::I32,
-        "MET_ULONG_LONG" => Sample::U64,
-        "MET_LONG_LONG" => Sample::I64,
-        "MET_FLOAT" => Sample::F32,
-        "MET_DOUBLE" => Sample::F64,
-        _ => return None,
     })
 }
 

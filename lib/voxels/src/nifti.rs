@@ -5,6 +5,7 @@
 use std::io::Read;
 
 use crate::Error;
+use crate::error::damaged;
 use crate::kind::{NIFTI_HEADERS, is_gzip, nifti_version};
 use crate::pixels::{self, Coding, Described};
 use crate::raw::Raw;
@@ -14,8 +15,7 @@ use crate::volume::Volume;
 use crate::voxel_size::VoxelSize;
 
 pub(crate) fn open(source: Source) -> Result<Volume, Error> {
-    let unreadable = |e| Error::io(&source, e);
-    let begin = source.window(0, 2).map_err(unreadable)?;
+    let begin = source.window(0, 2).map_err(|e| Error::io(&source, e))?;
     let coding = match is_gzip(&begin) {
         true => Coding::Gzip,
         false => Coding::Raw,
@@ -23,7 +23,7 @@ pub(crate) fn open(source: Source) -> Result<Volume, Error> {
     let mut head = Vec::new();
     (pixels::reader(&source, 0, coding))
         .and_then(|content| content.take(NIFTI_HEADERS[1] as u64).read_to_end(&mut head))
-        .map_err(unreadable)?;
+        .map_err(|e| Error::file(&source, damaged(e)))?;
     let wrong = |what: &str| Error::file(&source, what);
     let Some((version, big_endian)) = nifti_version(&head) else {
         return Err(wrong(
@@ -87,7 +87,15 @@ impl Fields<'_> {
             return Err("it is no volume of three axes".into());
         };
         let kind = i16::from_le_bytes(self.number(if self.second { 12 } else { 70 }));
-        let (sample, channels) = sample_of(kind)?;
+        const RGB24: i16 = 128;
+        let channels = if kind == RGB24 { 3 } else { 1 };
+        let sample = match kind {
+            RGB24 => Some(Sample::U8),
+            kind => Sample::of_nifti(kind),
+        };
+        let sample = sample.ok_or_else(|| {
+            format!("its data type is {kind}; accepted are integers of 8 to 64 bits, floats of 32 and 64 bits and RGB24")
+        })?;
         let offset = match self.second {
             true => i64::from_le_bytes(self.number(168)),
             // Truncated, as a float that is a number of bytes allows; not a number becomes 0.
@@ -119,25 +127,4 @@ impl Fields<'_> {
         let edges = [1, 2, 3].map(|i| self.pixdim(i).abs());
         VoxelSize::in_units(edges, [unit; 3], "NIfTI pixdim")
     }
-}
-
-fn sample_of(kind: i16) -> Result<(Sample, usize), String> {
-    let sample = match kind {
-        2 | 128 => Sample::U8,
-        256 => Sample::I8,
-        512 => Sample::U16,
-        4 => Sample::I16,
-        768 => Sample::U32,
-        8 => Sample::I32,
-        1280 => Sample::U64,
-        1024 => Sample::I64,
-        16 => Sample::F32,
-        64 => Sample::F64,
-        _ => {
-            return Err(format!(
-                "its data type is {kind}; accepted are integers of 8 to 64 bits, floats of 32 and 64 bits and RGB24"
-            ));
-        }
-    };
-    Ok((sample, if kind == 128 { 3 } else { 1 }))
 }

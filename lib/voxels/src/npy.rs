@@ -3,12 +3,13 @@
 //! shape (pages, rows, columns).
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufWriter, Write};
 
-use particle_file::{limits, temporary_file};
+use particle_file::temporary_file;
 
 use crate::Error;
 use crate::kind::Kind;
+use crate::lattice::voxels;
 use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
@@ -35,7 +36,7 @@ pub(crate) fn open(source: Source, unpacked: Option<Source>) -> Result<Volume, E
     (transposed.format.width, transposed.pages) = (pages, format.width);
     transposed.check(array)?;
     let size = format.sample.bytes();
-    if let Some(short) = machine::shortage(bytes_in_order(shape, size)) {
+    if let Some(short) = machine::shortage(array.len()) {
         let what = format!(
             "it is stored with z fastest (fortran_order), and to put it in order needs {short}: save it by numpy.ascontiguousarray"
         );
@@ -127,46 +128,14 @@ fn sample_of(descr: &str) -> Result<(Sample, bool), String> {
     }
 }
 
-/// Pages that are put in order in one pass over an array: as many as fit into one byte per voxel.
-fn pages_at_once([nz, ..]: [usize; 3], size: usize) -> usize {
-    nz.div_ceil(size)
-}
-
-/// Memory that these take.
-fn bytes_in_order(shape: [usize; 3], size: usize) -> u64 {
-    let [_, ny, nx] = shape.map(|n| n as u64);
-    let pages = pages_at_once(shape, size) as u64;
-    limits::volume([nx.saturating_mul(size as u64), ny, pages])
-}
-
 /// Copies an array stored with z fastest to an unnamed file with x fastest.
-///
-/// Each pass reads the whole array and gathers as many pages as fit into one byte per voxel,
-/// so a stack needs as many passes as a sample has bytes.
 fn in_c_order(source: &Source, data: u64, shape: [usize; 3], size: usize) -> io::Result<File> {
     let [nz, ny, nx] = shape;
-    let batch = pages_at_once(shape, size);
-    let whole = limits::volume([(nx * size) as u64, ny as u64, nz as u64]);
-    let mut out = BufWriter::new(temporary_file(whole)?);
-    let mut column = vec![0; nz * size];
-    for z0 in (0..nz).step_by(batch) {
-        let pages = batch.min(nz - z0);
-        let mut ordered = vec![0; pages * ny * nx * size];
-        let mut stored = BufReader::with_capacity(1 << 20, source.reader()?);
-        io::copy(&mut stored.by_ref().take(data), &mut io::sink())?;
-        for x in 0..nx {
-            for y in 0..ny {
-                stored.read_exact(&mut column)?;
-                let wanted = &column[z0 * size..(z0 + pages) * size];
-                for (k, value) in wanted.chunks_exact(size).enumerate() {
-                    let at = ((k * ny + y) * nx + x) * size;
-                    ordered[at..at + size].copy_from_slice(value);
-                }
-            }
-        }
-        out.write_all(&ordered)?;
+    let stored = source.window(data, nz * ny * nx * size)?;
+    let mut out = BufWriter::new(temporary_file(stored.len() as u64)?);
+    for [x, y, z] in voxels([nx, ny, nz]) {
+        let at = ((x * ny + y) * nz + z) * size;
+        out.write_all(&stored[at..at + size])?;
     }
-    let mut file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.seek(SeekFrom::Start(0))?;
-    Ok(file)
+    out.into_inner().map_err(io::IntoInnerError::into_error)
 }

@@ -6,6 +6,7 @@ use std::io::{BufReader, Read};
 use particle_file::{fill, temporary_file};
 use zip::ZipArchive;
 
+use crate::error::damaged;
 use crate::source::Source;
 use crate::volume::Volume;
 use crate::{Error, npy};
@@ -17,8 +18,12 @@ const MOST_ENTRIES: usize = 1024;
 pub(crate) fn open(source: Source) -> Result<Volume, Error> {
     let content = source.reader_from(0).map_err(|e| Error::io(&source, e))?;
     let wrong = |what: String| Err(Error::file(&source, what));
-    let unreadable =
-        |e: &dyn Display| Error::file(&source, format!("its archive cannot be read: {e}"));
+    let unreadable = |e: &dyn Display| {
+        Error::file(
+            &source,
+            format!("its archive cannot be read: {}", damaged(e)),
+        )
+    };
     let mut archive = ZipArchive::new(BufReader::new(content)).map_err(|e| unreadable(&e))?;
     let entries = archive.len();
     if entries > MOST_ENTRIES {

@@ -4,18 +4,24 @@
 use std::path::Path;
 
 use crate::beside::data_files;
-use crate::pixels::{Coding, Described, MAX_HEADER, whole_numbers};
+use crate::fields::{Fields, whole_numbers};
+use crate::pixels::{Coding, Described, MAX_HEADER};
 use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
 use crate::voxel_size::{VoxelSize, decimal};
 
 pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
-    let (fields, end) = fields(head)?;
-    let field = |keys: &[&str]| {
-        let found = fields.iter().find(|(key, _)| keys.contains(&key.as_str()));
-        found.map(|(_, value)| value.as_str())
-    };
-    let needed = |key: &str| field(&[key]).ok_or_else(|| format!("its header has no {key}"));
+    let is_list = |key: &str, value: &str| key.starts_with("data") && value.starts_with("LIST");
+    let header = Fields::read(head, ':', |key, value| {
+        key.is_empty() || is_list(key, value)
+    })?;
+    let field = |keys: &[&str]| header.get(keys).map(|(value, _)| value);
+    let needed = |key: &str| header.needed(key).map(|(value, _)| value);
+    let data_file = field(&["data file", "datafile"]);
+    // A header in a file of its own may end with the file.
+    if !header.ended && (data_file.is_none() || head.len() == MAX_HEADER) {
+        return Err("its header does not end".into());
+    }
     let axes = whole_numbers(needed("sizes")?);
     let (channels, [width, height, pages]) = match axes.as_deref() {
         Some(&[x, y, z]) => Some((1, [x, y, z])),
@@ -45,9 +51,12 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
         return Err("it skips lines of its data file; accepted is a skip of bytes".into());
     }
-    let files = match field(&["data file", "datafile"]) {
-        None => Vec::new(),
-        Some(value) => data_files(path, value, &head[end..], "data file")?,
+    let (files, offset) = match data_file {
+        None => (Vec::new(), header.end as u64),
+        Some(value) => (
+            data_files(path, value, &head[header.end..], "data file")?,
+            0,
+        ),
     };
     let skip = match field(&["byte skip", "byteskip"]) {
         None => Some(0),
@@ -61,7 +70,7 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
         raw: Raw {
             format: PageFormat::new([width, height], sample, channels),
             pages,
-            offset: if files.is_empty() { end as u64 } else { 0 },
+            offset,
             big_endian,
         },
         at_end: skip.is_none(),
@@ -72,53 +81,7 @@ pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     })
 }
 
-/// `key: value` lines in lower case up to the empty line that ends the header, or a list of files,
-/// and the byte behind it; comments and `key:=value` pairs are passed over.
-fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
-    let mut fields = Vec::new();
-    let mut end = 0;
-    for (i, line) in head.split_inclusive(|b| *b == b'\n').enumerate() {
-        end += line.len();
-        let text = String::from_utf8_lossy(line);
-        let text = text.trim_end();
-        if text.is_empty() && line.ends_with(b"\n") {
-            return Ok((fields, end));
-        }
-        // The first line is the magic.
-        if i == 0 || text.starts_with('#') || text.contains(":=") {
-            continue;
-        }
-        let (key, value) = text
-            .split_once(':')
-            .ok_or("a line of its header is not KEY: VALUE")?;
-        fields.push((key.trim().to_lowercase(), value.trim().to_owned()));
-        if key.starts_with("data") && value.trim().starts_with("LIST") {
-            return Ok((fields, end));
-        }
-    }
-    // A header in a file of its own may end with the file.
-    match fields.iter().any(|(key, _)| key.starts_with("data")) && head.len() < MAX_HEADER {
-        true => Ok((fields, end)),
-        false => Err("its header does not end".into()),
-    }
-}
-
 fn sample_of(kind: &str) -> Result<Sample, String> {
-    const NAMES: [(Sample, &[&str]); 10] = [
-        (Sample::U8, &["uchar", "unsigned char", "uint8"]),
-        (Sample::I8, &["signed char", "int8"]),
-        (Sample::U16, &["ushort", "unsigned short", "uint16"]),
-        (Sample::I16, &["short", "signed short", "int16"]),
-        (Sample::U32, &["uint", "unsigned int", "uint32"]),
-        (Sample::I32, &["int", "signed int", "int32"]),
-        (Sample::U64, &["ulonglong", "unsigned long long", "uint64"]),
-        (
-            Sample::I64,
-            &["longlong", "long long", "signed long long", "int64"],
-        ),
-        (Sample::F32, &["float"]),
-        (Sample::F64, &["double"]),
-    ];
     // As in C, short and long long may be followed by int; int8 and its like by _t.
     let short = kind
         .strip_suffix(" int")
@@ -127,8 +90,7 @@ fn sample_of(kind: &str) -> Result<Sample, String> {
         .strip_suffix("_t")
         .filter(|kind| kind.ends_with(char::is_numeric));
     let name = short.or(sized).unwrap_or(kind);
-    let known = NAMES.iter().find(|(_, names)| names.contains(&name));
-    known.map(|(sample, _)| *sample).ok_or_else(|| {
+    Sample::named(name).ok_or_else(|| {
         format!("its type is '{kind}'; accepted are integers of 8 to 64 bits, float and double")
     })
 }

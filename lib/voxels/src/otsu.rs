@@ -1,6 +1,7 @@
 //! Thresholds that part the grey values of a stack into phases (Otsu 1979).
 
 use std::ops::Range;
+use std::str::FromStr;
 
 use crate::histogram::{FEW, Histogram, Padding};
 use crate::levels::Levels;
@@ -21,29 +22,40 @@ pub struct Proposal {
     pub left_out: Vec<String>,
 }
 
+/// Grey values that are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GreyLevels {
+    /// Void, wood and adhesive by two thresholds.
+    Auto,
+    /// Void and undamaged wood by one.
+    AutoWood,
+    /// These.
+    Given(Grey),
+}
+
+impl FromStr for GreyLevels {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "auto-wood" => Ok(Self::AutoWood),
+            ranges => ranges.parse().map(Self::Given),
+        }
+    }
+}
+
 impl Histogram {
-    /// Wood and adhesive by two thresholds that part void, wood and adhesive such that the
-    /// variance between the three is largest, each class taking in its upper threshold.
+    /// Void, wood and adhesive, or void and wood alone, by the thresholds that make the variance between them
+    /// largest; each class takes in its upper one.
     ///
     /// The order void, wood, adhesive is that of X-ray absorption. Hot and dark pixels do not count,
     /// nor does what is around a round field of view.
     ///
     /// # Errors
-    /// A sentence where three phases are not found.
-    pub fn otsu(&self) -> Result<Proposal, String> {
-        self.propose(3)
-    }
-
-    /// Undamaged wood by the threshold that parts void and wood, as [`Histogram::otsu`] for a stack
-    /// without adhesive.
-    ///
-    /// # Errors
-    /// A sentence where two phases are not found.
-    pub fn otsu_of_wood(&self) -> Result<Proposal, String> {
-        self.propose(2)
-    }
-
-    fn propose(&self, phases: usize) -> Result<Proposal, String> {
+    /// A sentence where the phases are not found.
+    pub fn propose(&self, wood_alone: bool) -> Result<Proposal, String> {
+        let phases = if wood_alone { 2 } else { 3 };
         let total: u64 = self.counts.iter().sum();
         if let Some(padding) = self.padding {
             let mut counts = self.counts.clone();
@@ -177,12 +189,12 @@ mod tests {
         for (values, first, apart, s) in [(256, 40.0, 80.0, 6.0), (65536, 8000.0, 12_000.0, 900.0)]
         {
             let peaks = [0.0, 1.0, 2.0].map(|i| (first + i * apart, s, 1e6));
-            let grey = of_peaks(values, &peaks).otsu().unwrap().grey;
+            let grey = of_peaks(values, &peaks).propose(false).unwrap().grey;
             let beside = [0.4, 0.6, 1.4, 1.6].map(|i| first + i * apart);
             assert_eq!(phases(&grey, beside), [0, 1, 1, 2]);
         }
         let peaks = of_peaks(256, &[(60.0, 8.0, 1e6), (160.0, 8.0, 1e6)]);
-        let said = peaks.otsu_of_wood().unwrap().grey.to_string();
+        let said = peaks.propose(true).unwrap().grey.to_string();
         let from: f64 = said[5..said.len() - 2].parse().unwrap();
         assert!((from - 110.5).abs() <= 1.0, "{said}");
     }
@@ -191,13 +203,13 @@ mod tests {
     fn three_values_are_parted_and_two_are_not() {
         let mut counts = vec![0; 256];
         (counts[3], counts[90], counts[91]) = (5, 7, 2);
-        let grey = of_counts(counts).otsu().unwrap().grey;
+        let grey = of_counts(counts).propose(false).unwrap().grey;
         assert_eq!(phases(&grey, [3.0, 90.0, 91.0]), [0, 1, 2]);
         let mut two = of_counts(vec![1, 0, 4]);
-        assert!(two.otsu().unwrap_err().contains("three"));
+        assert!(two.propose(false).unwrap_err().contains("three"));
         two.scale.first = -128;
-        assert_eq!(two.otsu_of_wood().unwrap().grey.to_string(), "wood=-127..");
-        let one = of_counts(vec![0, 9]).otsu_of_wood();
+        assert_eq!(two.propose(true).unwrap().grey.to_string(), "wood=-127..");
+        let one = of_counts(vec![0, 9]).propose(true);
         assert!(one.unwrap_err().contains("two"));
     }
 
@@ -205,15 +217,15 @@ mod tests {
     #[test]
     fn what_is_no_phase_is_not_proposed() {
         let wood = [(60.0, 8.0, 1e6), (160.0, 8.0, 1e6)];
-        let said = of_peaks(256, &wood).otsu().unwrap_err();
+        let said = of_peaks(256, &wood).propose(false).unwrap_err();
         for part in ["do not part", "auto-wood", "--grey wood="] {
             assert!(said.contains(part), "{said}");
         }
-        let said = of_peaks(256, &wood[..1]).otsu_of_wood().unwrap_err();
+        let said = of_peaks(256, &wood[..1]).propose(true).unwrap_err();
         assert!(said.contains("void from wood"), "{said}");
         for (voxels, proposed) in [(3e4, false), (6e4, true)] {
             let peaks = [wood[0], wood[1], (240.0, 2.0, voxels)];
-            assert_eq!(of_peaks(256, &peaks).otsu().is_ok(), proposed);
+            assert_eq!(of_peaks(256, &peaks).propose(false).is_ok(), proposed);
         }
     }
 }

@@ -12,6 +12,7 @@ use flate2::read::{MultiGzDecoder, ZlibDecoder};
 use particle_file::{limits, temporary_file};
 
 use crate::Error;
+use crate::error::damaged;
 use crate::raw::Raw;
 use crate::sample::Sample;
 use crate::source::Source;
@@ -170,7 +171,10 @@ impl Described {
     /// Appends the `bytes` of pixels that `file` holds to `out`.
     fn unpack(&self, file: &Source, bytes: u64, mut out: &File) -> Result<(), Error> {
         let unreadable = |e: io::Error| {
-            let what = format!("its {}pixels cannot be read: {e}", self.coding.adjective());
+            let what = match self.coding {
+                Coding::Raw | Coding::Text => format!("its pixels cannot be read: {e}"),
+                _ => format!("its compressed pixels cannot be read: {}", damaged(e)),
+            };
             Error::file(file, what)
         };
         let content = reader(file, self.begin(file, bytes)?, self.coding);
@@ -239,9 +243,4 @@ fn from_text(
             "its text holds {found} numbers, not the {count} that its header declares"
         ))),
     }
-}
-
-/// Whole numbers with blanks between them.
-pub(crate) fn whole_numbers(text: &str) -> Option<Vec<usize>> {
-    text.split_whitespace().map(|n| n.parse().ok()).collect()
 }

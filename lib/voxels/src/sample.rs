@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 macro_rules! samples {
-    ($($name:ident $number:ident $parse:ident $says:literal)*) => {
+    ($($name:ident $number:ident $parse:ident $nifti:literal $names:literal $says:literal)*) => {
         /// The number type of a stored sample; pixels of 1, 2 and 4 bits are unpacked to `U8`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Sample {
@@ -19,10 +19,18 @@ macro_rules! samples {
                 }
             }
 
-            /// That of `u8`, `i16`, `f32` ...
+            /// That of a name in `--type`, MetaImage or NRRD.
             pub(crate) fn named(name: &str) -> Option<Self> {
-                match name {
-                    $(stringify!($number) => Some(Sample::$name),)*
+                match () {
+                    $(() if $names.split('|').any(|own| own == name) => Some(Sample::$name),)*
+                    () => None,
+                }
+            }
+
+            /// That of a code in NIfTI.
+            pub(crate) fn of_nifti(code: i16) -> Option<Self> {
+                match code {
+                    $($nifti => Some(Sample::$name),)*
                     _ => None,
                 }
             }
@@ -54,17 +62,18 @@ macro_rules! samples {
     };
 }
 
+// MetaImage's LONG has four bytes wherever it is written.
 samples! {
-    U8 u8 whole "unsigned 8 bits"
-    U16 u16 whole "unsigned 16 bits"
-    U32 u32 whole "unsigned 32 bits"
-    U64 u64 whole "unsigned 64 bits"
-    I8 i8 whole "signed 8 bits"
-    I16 i16 whole "signed 16 bits"
-    I32 i32 whole "signed 32 bits"
-    I64 i64 whole "signed 64 bits"
-    F32 f32 real "32-bit float"
-    F64 f64 real "64-bit float"
+    U8 u8 whole 2 "u8|MET_UCHAR|uchar|unsigned char|uint8" "unsigned 8 bits"
+    U16 u16 whole 512 "u16|MET_USHORT|ushort|unsigned short|uint16" "unsigned 16 bits"
+    U32 u32 whole 768 "u32|MET_UINT|MET_ULONG|uint|unsigned int|uint32" "unsigned 32 bits"
+    U64 u64 whole 1280 "u64|MET_ULONG_LONG|ulonglong|unsigned long long|uint64" "unsigned 64 bits"
+    I8 i8 whole 256 "i8|MET_CHAR|signed char|int8" "signed 8 bits"
+    I16 i16 whole 4 "i16|MET_SHORT|short|signed short|int16" "signed 16 bits"
+    I32 i32 whole 8 "i32|MET_INT|MET_LONG|int|signed int|int32" "signed 32 bits"
+    I64 i64 whole 1024 "i64|MET_LONG_LONG|longlong|long long|signed long long|int64" "signed 64 bits"
+    F32 f32 real 16 "f32|MET_FLOAT|float" "32-bit float"
+    F64 f64 real 64 "f64|MET_DOUBLE|double" "64-bit float"
 }
 
 impl Sample {
@@ -117,6 +126,12 @@ impl PageFormat {
 
     pub(crate) fn pixel_bytes(&self) -> usize {
         self.sample.bytes() * self.channels
+    }
+
+    /// The numbers of a row of pixels of one sample.
+    pub(crate) fn values(self, row: &[u8]) -> impl Iterator<Item = f64> {
+        let pixels = row.chunks_exact(self.sample.bytes());
+        pixels.map(move |pixel| self.sample.value(pixel))
     }
 
     /// Bytes of one page, if that is a number.

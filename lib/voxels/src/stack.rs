@@ -80,23 +80,16 @@ impl Stack {
             ));
         }
         let source = Source::open(path)?;
-        let (name, len) = (source.to_string(), source.len());
         let [width, height, pages] = dims.0;
-        let format = PageFormat::new([width, height], kind.sample, 1);
-        let declared = format.volume_bytes(pages);
-        if declared != Some(len) {
-            return Err(Error::Usage(format!(
-                "{name}: {width} x {height} x {pages} voxels, {}, are {} bytes, but it holds {len}: check --dims and --type",
-                kind.sample,
-                declared.map_or("more".into(), |n| n.to_string())
-            )));
-        }
         let raw = Raw {
-            format,
+            format: PageFormat::new([width, height], kind.sample, 1),
             pages,
             offset: 0,
             big_endian: kind.big_endian,
         };
+        let checked = raw.check(&source);
+        checked.map_err(|e| Error::Usage(format!("{e}; check --dims and --type")))?;
+        let name = source.to_string();
         Self::new(name, raw.volume(vec![source], None)?, None)
     }
 

@@ -10,8 +10,8 @@ use crate::Error;
 
 /// How far the edges of a voxel may differ and still make a cube.
 const CUBE_TOLERANCE: f64 = 0.01;
-/// Edges (m) that a file is believed to state: what lies beyond is mostly what programs write by
-/// default, or in another unit than they say.
+/// Edges (m) that are believed: what lies beyond is mostly what programs write by default, or in another unit than they
+/// say.
 const BELIEVED: RangeInclusive<f64> = 1e-8..=50e-6;
 /// Edges (m) of voxels in which cells of wood are seen.
 const USUAL: RangeInclusive<f64> = 0.1e-6..=20e-6;
@@ -169,7 +169,8 @@ impl VoxelEdge {
         };
         let refused = |why: String| Error::Usage(format!("{name}: {why}"));
         let (metres, from) = (stated.cube_edge().map_err(refused)?, stated.from);
-        if !BELIEVED.contains(&metres) {
+        let edge = Self { metres, from };
+        if !edge.is_believed() {
             return Err(refused(format!(
                 "by {from} a voxel is {}, which is mostly a default or a wrong unit (believed are {} to {}): give the true edge with --voxel",
                 length(metres),
@@ -177,12 +178,17 @@ impl VoxelEdge {
                 length(*BELIEVED.end())
             )));
         }
-        Ok(Self { metres, from })
+        Ok(edge)
     }
 
     /// A sentence about an edge that is rare for wood, and may be in a wrong unit.
     pub fn doubt(&self) -> Option<String> {
         doubt(self.metres, self.from)
+    }
+
+    /// Whether cells of wood may be seen in such voxels.
+    pub fn is_believed(&self) -> bool {
+        BELIEVED.contains(&self.metres)
     }
 }
 
@@ -195,7 +201,7 @@ pub fn doubt_of_file(header: &Header) -> Option<String> {
 fn doubt(metres: f64, from: &str) -> Option<String> {
     (!USUAL.contains(&metres)).then(|| {
         format!(
-            "a voxel is {} by {from}; cells of wood are seen in voxels of {} to {}: is the unit right?",
+            "a voxel is {} by {from} (is the unit right?), and cells of wood are seen in voxels of {} to {}",
             length(metres),
             length(*USUAL.start()),
             length(*USUAL.end())

@@ -18,8 +18,7 @@ pub(crate) fn feed(bytes: &[u8]) -> bool {
         return false;
     };
     let _ = (file.sum(), file.content_hash());
-    let mut volume = 0.0;
-    let _ = file.for_each_adhesive(|_, v| volume += v);
+    let _ = file.liquid().is_ok();
     read_columns(&file);
     measure(&file);
     match file.header().kind {

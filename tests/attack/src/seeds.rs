@@ -125,7 +125,7 @@ fn labels() -> Vec<u8> {
 /// TIFF stacks: ours, and those of every compression and sample that another encoder writes.
 pub(crate) fn tiffs() -> Vec<Vec<u8>> {
     let mut own = Vec::new();
-    let written = TiffWriter::new(&mut own, DIMS, VOXEL).and_then(|mut writer| {
+    let written = TiffWriter::new(&mut own, DIMS, VOXEL, "").and_then(|mut writer| {
         (labels().chunks(DIMS[0] * DIMS[1])).try_for_each(|page| writer.write_page(page))
     });
     assert!(written.is_ok(), "{written:?}");

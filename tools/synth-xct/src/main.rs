@@ -1,13 +1,12 @@
 //! A synthetic specimen as a label stack: see `synthetic-wood`.
 
 use std::process::ExitCode;
-use std::str::FromStr;
 
 use clap::Parser;
 use cli::{Failure, Output, Record};
 use synthetic_wood::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Specimen};
 use units::{Angle, Length, positive};
-use voxels::TiffWriter;
+use voxels::{Dims, TiffWriter};
 
 /// Grow a synthetic hybrid poplar specimen with a bond line, or undamaged wood of one of four species, as an 8-bit label stack
 ///
@@ -33,7 +32,7 @@ struct Arguments {
     species: String,
     /// Voxels along x, y and z
     #[arg(long, value_name = "XxYxZ", default_value = "48x96x48")]
-    size: Size,
+    size: Dims,
     /// Voxel edge
     #[arg(long, value_name = "LEN", default_value = "1.45 um", allow_hyphen_values = true, value_parser = positive::<Length>)]
     voxel: f64,
@@ -54,23 +53,6 @@ struct Arguments {
     output: Output,
     #[command(flatten)]
     common: cli::Common,
-}
-
-#[derive(Clone, Copy)]
-struct Size([usize; 3]);
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let edges: Result<Vec<usize>, _> = text.split('x').map(str::parse).collect();
-        match edges.as_deref() {
-            Ok(&[nx, ny, nz]) => Ok(Self([nx, ny, nz])),
-            _ => Err(format!(
-                "'{text}' is not a size: three numbers of voxels are needed, e.g. 48x96x48"
-            )),
-        }
-    }
 }
 
 fn main() -> ExitCode {
@@ -131,7 +113,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         record.version
     );
     arguments.output.write_with_record(&record, |out| {
-        let mut tiff = TiffWriter::with_note(out, specimen.size(), recipe.voxel, &note)?;
+        let mut tiff = TiffWriter::new(out, specimen.size(), recipe.voxel, &note)?;
         for page in specimen.pages() {
             tiff.write_page(&page)?;
         }

@@ -6,7 +6,7 @@ use clap::Parser;
 use cli::Output;
 use metrics::Reference;
 use units::{Axis, Length};
-use voxels::{Dims, Grey, Labels, RawType};
+use voxels::{Dims, GreyLevels, Labels, RawType};
 
 /// Options that have no meaning in tables of wood.
 const OF_ADHESIVE: [&str; 10] = [
@@ -104,9 +104,9 @@ pub(crate) struct Arguments {
     /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
     #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
     pub(crate) labels: Option<Labels>,
-    /// Grey values of stacks, as in wood=90..170,adhesive=171..; auto takes those that
-    /// xct2particles --grey auto proposes, and says them
-    #[arg(long, value_name = "auto|RANGES", conflicts_with = "labels", value_parser = grey)]
+    /// Grey values of stacks, as in wood=90..170,adhesive=171..; auto and auto-wood take those that
+    /// xct2particles proposes, and say them
+    #[arg(long, value_name = "auto|auto-wood|RANGES", conflicts_with = "labels")]
     #[arg(help_heading = "Image stacks")]
     pub(crate) grey: Option<GreyLevels>,
     /// Size of stacks that are raw volumes, x fastest
@@ -123,20 +123,6 @@ pub(crate) struct Arguments {
     pub(crate) kind: Option<RawType>,
     #[command(flatten)]
     pub(crate) common: cli::Common,
-}
-
-/// What `--grey` asks for; thresholds by Otsu's method where it is `auto`.
-#[derive(Clone)]
-pub(crate) enum GreyLevels {
-    Auto,
-    Given(Grey),
-}
-
-fn grey(text: &str) -> Result<GreyLevels, String> {
-    match text {
-        "auto" => Ok(GreyLevels::Auto),
-        ranges => ranges.parse().map(GreyLevels::Given),
-    }
 }
 
 fn reference(text: &str) -> Result<Reference, String> {

@@ -9,20 +9,20 @@ use cli::{Failure, InputRecord};
 use metrics::{Adhesive, State};
 use particle_file::{BitGrid, Header, Kind, Mapped, ParticleFile, temporary_file};
 use units::Axis;
-use voxels::{Crop, Histogram, Phases, Segmented, Source, Stack, VoxelEdge};
+use voxels::{Crop, GreyLevels, Histogram, Phases, Segmented, Source, Stack, VoxelEdge};
 
-use crate::arguments::{Arguments, GreyLevels};
+use crate::arguments::Arguments;
 
 /// Which values of `stack` are what.
 fn phases(stack: &Stack, arguments: &Arguments) -> Result<Phases, Failure> {
     Ok(match (&arguments.labels, &arguments.grey) {
         (Some(labels), _) => Phases::Labels(labels.clone()),
         (None, Some(GreyLevels::Given(grey))) => Phases::Grey(grey.clone()),
-        (None, Some(GreyLevels::Auto)) => {
+        (None, Some(auto)) => {
             let whole = Crop::whole(stack.dims());
             let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
             let name = stack.name();
-            let proposal = histogram.otsu();
+            let proposal = histogram.propose(*auto == GreyLevels::AutoWood);
             let proposal = proposal.map_err(|why| Failure::usage(format!("{name}: {why}")))?;
             let grey = proposal.grey;
             cli::note(format_args!("{name}: grey values taken as {grey}"));

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Parser;
 use cli::Output;
 use units::{Axis, Length};
-use voxels::{Crop, Dims, Grey, Labels, RawType};
+use voxels::{Crop, Dims, GreyLevels, Labels, RawType};
 
 /// Turn a stack of XCT label images into a particle file
 ///
@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     /// Grey values of wood and adhesive, both ends included, for a stack without labels; wood alone
     /// has no adhesive. auto proposes them (Otsu's two thresholds) for wood darker than adhesive,
     /// auto-wood for wood alone (one threshold): check them by --preview
-    #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..", value_parser = grey)]
+    #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..")]
     pub(crate) grey: Option<GreyLevels>,
     /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
     /// would take
@@ -75,27 +75,11 @@ pub(crate) struct Arguments {
         required_unless_present_any = ["histogram", "preview"]
     )]
     pub(crate) output: Option<Output>,
-    /// Go on where wood and void look exchanged
+    /// Go on where two phases look exchanged, or the voxel edge is none in which cells of wood are seen
     #[arg(long)]
     pub(crate) yes_really: bool,
     #[command(flatten)]
     pub(crate) common: cli::Common,
-}
-
-/// What `--grey` asks for.
-#[derive(Clone)]
-pub(crate) enum GreyLevels {
-    Auto,
-    AutoWood,
-    Given(Grey),
-}
-
-fn grey(text: &str) -> Result<GreyLevels, String> {
-    match text {
-        "auto" => Ok(GreyLevels::Auto),
-        "auto-wood" => Ok(GreyLevels::AutoWood),
-        ranges => ranges.parse().map(GreyLevels::Given),
-    }
 }
 
 fn picture(text: &str) -> Result<Output, String> {

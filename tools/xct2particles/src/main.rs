@@ -7,14 +7,16 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use arguments::{Arguments, GreyLevels};
+use arguments::Arguments;
 use bondline::{Placed, Specimen};
 use cli::{Failure, Output, Progress};
 use figures::{Cut, Page, Position, Slices};
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use rayon::prelude::*;
 use units::Axis;
-use voxels::{Crop, Histogram, Phases, Proposal, Segmented, Source, Stack, VoxelEdge, segment};
+use voxels::{
+    Crop, GreyLevels, Histogram, Phases, Proposal, Segmented, Source, Stack, VoxelEdge, segment,
+};
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
@@ -33,7 +35,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         stack.sources().iter().map(Source::path),
         output.iter().chain(histogram).chain(preview),
     )?;
-    let crop = (arguments.crop.clone()).unwrap_or_else(|| Crop::whole(stack.dims()));
+    let crop = kept(&stack, &arguments);
     let proposed = proposal(&stack, &crop, &arguments)?;
     if output.is_none() && preview.is_none() {
         return Ok(());
@@ -41,6 +43,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name());
     let edge = edge.map_err(failure)?;
     report::stack(&stack, &crop, &edge);
+    looks_wrong(edge.doubt(), arguments.yes_really || edge.is_believed())?;
     let phases = match (&arguments.labels, &arguments.grey, proposed) {
         (Some(labels), _, _) => Phases::Labels(labels.clone()),
         (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey.clone()),
@@ -64,10 +67,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     report::phases(&segmented, edge.metres, across(&arguments));
     let draft = draft(&segmented, &edge, &crop, &arguments, inputs);
     if let Some(preview) = preview {
-        let name = arguments.stack[0].file_name().unwrap_or_default();
-        draw(&draft, &name.to_string_lossy(), preview)?;
+        draw(&draft, &stack, &phases, &arguments, preview)?;
     }
-    look_swapped(&segmented, arguments.yes_really)?;
+    let cure = "look by --preview, or exchange the two in --labels or --grey";
+    let swapped = segmented.swapped().map(|said| format!("{said}; {cure}"));
+    looks_wrong(swapped, arguments.yes_really)?;
     output
         .as_ref()
         .map_or(Ok(()), |output| output.write(|out| draft.write_to(out)))
@@ -90,12 +94,14 @@ fn proposal(
             (histogram.values()).try_for_each(|(grey, voxels)| writeln!(out, "{grey},{voxels}"))
         })?;
     }
-    let proposed = match arguments.grey {
-        Some(GreyLevels::AutoWood) => histogram.otsu_of_wood(),
-        _ => histogram.otsu(),
-    };
+    let proposed = histogram.propose(arguments.grey == Some(GreyLevels::AutoWood));
     report::proposal(&proposed);
     Ok(Some(proposed))
+}
+
+/// The part of a stack that is kept.
+fn kept(stack: &Stack, arguments: &Arguments) -> Crop {
+    (arguments.crop.clone()).unwrap_or_else(|| Crop::whole(stack.dims()))
 }
 
 /// The axis across the bond.
@@ -120,30 +126,52 @@ fn level(
     Ok(())
 }
 
-/// Refuses wood that looks like void, as labels that were exchanged make it.
-fn look_swapped(segmented: &Segmented, really: bool) -> Result<(), Failure> {
-    match segmented.swapped() {
+/// Refuses what looks wrong, or warns of it where it is to go on `really`.
+fn looks_wrong(said: Option<String>, really: bool) -> Result<(), Failure> {
+    match said {
         None => Ok(()),
         Some(said) if really => {
             cli::warn(said);
             Ok(())
         }
         Some(said) => Err(Failure::usage(format!(
-            "{said}; look by --preview, exchange the two in --labels or --grey, or go on all the same by --yes-really"
+            "{said}; go on all the same by --yes-really"
         ))),
     }
 }
 
-/// Draws the phases of a specimen in cuts through its middle, normal to z, y and x.
-fn draw(draft: &Draft, name: &str, preview: &Output) -> Result<(), Failure> {
+/// Draws the phases of a specimen in cuts through its middle, normal to z, y and x, beside the grey values that they were
+/// taken from.
+fn draw(
+    draft: &Draft,
+    stack: &Stack,
+    phases: &Phases,
+    arguments: &Arguments,
+    preview: &Output,
+) -> Result<(), Failure> {
+    let by_grey = matches!(phases, Phases::Grey(_));
+    let turned = by_grey && arguments.level.is_some();
+    if turned {
+        cli::note("preview     without grey values, which --level does not turn");
+    }
+    let crop = kept(stack, arguments);
+    let greys = (by_grey && !turned).then(|| stack.middle_cuts(&crop));
+    let greys = greys.transpose().map_err(failure)?;
+    let name = arguments.stack[0].file_name().unwrap_or_default();
     let mut bytes = Vec::new();
     draft.write_to(&mut bytes).map_err(Failure::failed)?;
     let file = ParticleFile::from_bytes(&bytes).map_err(Failure::failed)?;
-    let cuts = [Axis::Z, Axis::Y, Axis::X].map(|axis| Cut {
-        axis,
-        position: Position::Share(0.5),
+    let header = file.header();
+    let cuts = [Axis::Z, Axis::Y, Axis::X].map(|axis| {
+        let a = axis.index();
+        let layer = (header.box_max_m[a] / header.voxel_m).round() as usize / 2;
+        let position = Position::At((layer as f64 + 0.5) * header.voxel_m);
+        (
+            Cut { axis, position },
+            greys.as_ref().map(|greys| &greys[a][..]),
+        )
     });
-    let slices = Slices::through(&file, name, &cuts).map_err(Failure::failed)?;
+    let slices = Slices::through(&file, &name.to_string_lossy(), &cuts).map_err(Failure::failed)?;
     let png = slices
         .draw(Page::default())
         .to_png()

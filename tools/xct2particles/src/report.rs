@@ -22,7 +22,6 @@ pub(crate) fn stack(stack: &Stack, crop: &Crop, edge: &VoxelEdge) {
     ));
     let um = edge.metres * 1e6;
     cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
-    edge.doubt().into_iter().for_each(cli::warn);
     let Some(stated) = stack.voxel_size() else {
         return;
     };

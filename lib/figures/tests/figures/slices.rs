@@ -3,7 +3,7 @@
 use std::slice::from_ref;
 
 use figures::{Colouring, Cut, Drawing, Error, Page, Position, Slices};
-use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
 use units::Axis;
 
 use crate::{Folder, pixels, says};
@@ -58,6 +58,28 @@ fn slices_show_each_phase_by_its_area() {
     let nothing = folder.labelled("foreign", "not a particle file");
     let foreign = read(&nothing, Axis::Z, Position::Share(0.5));
     assert!(matches!(foreign, Err(Error::Data(_))));
+}
+
+/// The slab's grey, a fifth of the way from the darkest to the brightest, has the place and size of its adhesive.
+#[test]
+fn grey_values_are_drawn_beside_their_phases() {
+    let file = ParticleFile::from_bytes(&layers(Kind::Specimen)).unwrap();
+    let grey = |i: usize| [1e4, 1.1e4, 1.5e4][(i % 60 / 27).min(1) + usize::from(i % 60 > 32)];
+    let greys: Vec<f64> = (0..60 * 20).map(grey).collect();
+    let (axis, position) = (Axis::X, Position::Share(0.5));
+    let cut = (Cut { axis, position }, Some(&greys[..]));
+    let drawing = Slices::through(&file, "a", &[cut])
+        .unwrap()
+        .draw(Page::default());
+    says(&drawing, &["15000"]);
+    let (width, pixels) = pixels(&drawing);
+    // Smoothed text has a few such pixels, too.
+    let rows = |colour| -> Vec<bool> {
+        let row = |row: &[[u8; 3]]| row.iter().filter(|p| **p == colour).count() > 100;
+        pixels.chunks(width).skip(80).map(row).collect()
+    };
+    let adhesive = rows([230, 159, 0]);
+    assert!(adhesive.contains(&true) && rows([51; 3]) == adhesive);
 }
 
 /// Lines of a grid of 5 um over voxels of 1 um, and a part of 10 x 12 of them.

@@ -29,7 +29,7 @@ fn written(draft: impl FnOnce(Draft) -> Draft) -> Vec<u8> {
 
 fn use_all(file: &ParticleFile) {
     let _ = (file.check(), file.sum());
-    let _ = file.for_each_adhesive(|_, _| ());
+    let _ = file.liquid().is_ok();
     for (index, block) in file.header().blocks.iter().enumerate() {
         if let Ok((_, bits)) = file.block(index) {
             assert_eq!(bits.count(), block.count);

@@ -2,7 +2,6 @@
 
 mod decode;
 mod describe;
-mod description;
 mod encoding;
 mod ifd;
 mod layout;
@@ -20,7 +19,7 @@ use crate::Error;
 use crate::beside::data_file;
 use crate::source::Source;
 use crate::volume::{Pixels, Volume};
-use description::Description;
+use describe::Description;
 use ifd::Container;
 use layout::PageLayout;
 

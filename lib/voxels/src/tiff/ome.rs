@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use roxmltree::Node;
 
-use super::description::{Block, Description, one_axis};
+use super::describe::{Block, Description, one_axis};
 use super::layout::PageLayout;
 use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
 

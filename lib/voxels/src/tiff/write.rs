@@ -26,19 +26,12 @@ pub struct TiffWriter<W> {
 }
 
 impl<W: Write> TiffWriter<W> {
-    /// Writes the header of a stack of `[nx, ny, nz]` voxels of edge `voxel_edge` (m).
+    /// Writes the header of a stack of `[nx, ny, nz]` voxels of edge `voxel_edge` (m), with a `note` in the image
+    /// description if it is not empty, e.g. `note=synthetic`.
     ///
     /// # Errors
     /// Dimensions that TIFF cannot hold, or the failed write.
-    pub fn new(out: W, dims: [usize; 3], voxel_edge: f64) -> io::Result<Self> {
-        Self::with_note(out, dims, voxel_edge, "")
-    }
-
-    /// As [`TiffWriter::new`], with a line for the image description, e.g. `note=synthetic`.
-    ///
-    /// # Errors
-    /// As [`TiffWriter::new`].
-    pub fn with_note(out: W, dims: [usize; 3], voxel_edge: f64, note: &str) -> io::Result<Self> {
+    pub fn new(out: W, dims: [usize; 3], voxel_edge: f64, note: &str) -> io::Result<Self> {
         let layout = Layout::new(dims, voxel_edge, note, false)
             .filter(|layout| layout.end <= u64::from(u32::MAX))
             .or_else(|| Layout::new(dims, voxel_edge, note, true));
@@ -263,8 +256,8 @@ mod tests {
 
     #[test]
     fn missing_pages_are_noticed() {
-        let writer = TiffWriter::new(Vec::new(), [2, 2, 2], 1e-6).unwrap();
+        let writer = TiffWriter::new(Vec::new(), [2, 2, 2], 1e-6, "").unwrap();
         assert!(writer.finish().is_err());
-        assert!(TiffWriter::new(Vec::new(), [0, 2, 2], 1e-6).is_err());
+        assert!(TiffWriter::new(Vec::new(), [0, 2, 2], 1e-6, "").is_err());
     }
 }

@@ -72,7 +72,7 @@ impl Specimen {
 
     /// Share of the voxels that thresholds proposed for the stack give another phase.
     fn wrong(&self, stored: &Stored) -> f64 {
-        let grey = stored.histogram().otsu().unwrap().grey;
+        let grey = stored.histogram().propose(false).unwrap().grey;
         let whole = Crop::whole(DIMS);
         let found = segment(&stored.stack, &Phases::Grey(grey), &whole, || {}).unwrap();
         let [nx, ny, _] = DIMS;
@@ -102,7 +102,7 @@ impl Stored {
     }
 
     fn left_out(&self) -> String {
-        self.histogram().otsu().unwrap().left_out.join("; ")
+        self.histogram().propose(false).unwrap().left_out.join("; ")
     }
 }
 
@@ -183,7 +183,7 @@ fn padding_around_a_round_field_of_view_is_void() {
     }
     // What is no number is refused by its voxel.
     let stored = Specimen::new(0.12).in_circle(f64::NAN).stored(F32);
-    let grey = Phases::Grey(stored.histogram().otsu().unwrap().grey);
+    let grey = Phases::Grey(stored.histogram().propose(false).unwrap().grey);
     let within = |crop: &Crop| segment(&stored.stack, &grey, crop, || {});
     assert_says(within(&Crop::whole(DIMS)), &["holds NaN", "--crop"]);
     assert!(within(&"8:32,8:32,0:12".parse().unwrap()).is_ok());
@@ -207,8 +207,8 @@ fn phases_that_are_not_there_are_not_proposed() {
             .spoiled(hot, 65.0)
             .stored(U16)
             .histogram();
-        assert_has(&histogram.otsu().unwrap_err(), &["auto-wood"]);
-        let wood = histogram.otsu_of_wood().unwrap().grey;
+        assert_has(&histogram.propose(false).unwrap_err(), &["auto-wood"]);
+        let wood = histogram.propose(true).unwrap().grey;
         let phase = |v| wood.phase(1000.0 * v).unwrap() as usize;
         let found = [10.0, 14.0, 18.0, 22.0].map(phase);
         assert_eq!(found, [0, 0, 1, 1], "{hot}: {wood}");

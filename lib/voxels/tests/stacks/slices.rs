@@ -76,7 +76,7 @@ fn slices_that_do_not_belong_together_are_refused() {
     for color in [ColorType::Indexed, ColorType::Grayscale] {
         let whole = png(color, BitDepth::Eight, &values(0));
         for cut in [40, 60, whole.len() - 20] {
-            assert_refused("a.png", &whole[..cut], &["a.png'"]);
+            assert_refused("a.png", &whole[..cut], &["a.png'", "cut or damaged ("]);
         }
     }
 }
@@ -166,6 +166,12 @@ fn jpeg_slices_give_grey_values() {
     }
     // The decoder makes up what a cut file lacks.
     let whole = jpeg(&page(0, |l| 80 * l), 90);
+    let (_folder, path) = stored("a.jpg", &whole[..3]);
+    let said = refusal(&path);
+    assert!(
+        !said.contains('\n') && said.contains("cut or damaged ("),
+        "{said}"
+    );
     for cut in [2, 20, 60] {
         let (_folder, path) = stored("a.jpg", &whole[..whole.len() - cut]);
         let read = open(&path).read_page(0, &mut Vec::new());

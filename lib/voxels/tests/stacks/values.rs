@@ -44,6 +44,21 @@ fn grey_values_become_phases_by_range() {
 }
 
 #[test]
+fn cuts_lie_in_the_middle_of_what_is_kept() {
+    let (_folder, path) = stored("a.tif", &tiff(&plain_pages()));
+    let [x, y, z] = open(&path)
+        .middle_cuts(&"2:9,3:13,1:4".parse().unwrap())
+        .unwrap();
+    let value = |x, y, z| f64::from(label(x, y, z));
+    let layer = |[n, m]: [usize; 2], of: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+        (0..n * m).map(|i| of(i % n, i / n)).collect()
+    };
+    assert_eq!(x, layer([10, 3], &|j, k| value(5, j + 3, k + 1)));
+    assert_eq!(y, layer([7, 3], &|i, k| value(i + 2, 8, k + 1)));
+    assert_eq!(z, layer([7, 10], &|i, j| value(i + 2, j + 3, 2)));
+}
+
+#[test]
 fn guesses_and_crops() {
     let (_folder, path) = stored("a.tif", &tiff(&plain_pages()));
     let guessed = segmented(&path, &Phases::Guess).unwrap();

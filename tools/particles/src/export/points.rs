@@ -36,17 +36,26 @@ impl<'a> Points<'a> {
     }
 
     fn of_voxels(file: &ParticleFile) -> Result<Self, Failure> {
-        let count = adhesive_voxels(file).map_err(Failure::data)?;
+        let blocks = file.header().blocks.iter().enumerate();
+        let adhesive = blocks.filter(|(_, block)| block.material == Material::Adhesive);
+        let blocks = adhesive.map(|(index, _)| file.block(index));
+        let blocks = blocks
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(Failure::data)?;
+        // By their bits: a header can claim any number.
+        let count: u64 = blocks.iter().map(|(_, bits)| bits.count()).sum();
         let bytes = count.saturating_mul(4 * size_of::<f32>() as u64);
         file.fits(bytes, "a table of its adhesive")
             .map_err(Failure::data)?;
         let mut position = Vec::with_capacity(3 * count as usize);
         let mut volume = Vec::with_capacity(count as usize);
-        file.for_each_adhesive(|p, v| {
-            position.extend(p.map(|x| x as f32));
-            volume.push(v as f32);
-        })
-        .map_err(Failure::data)?;
+        for (block, bits) in blocks {
+            bits.for_each(|index| {
+                let centre = |a| block.origin_m[a] + (index[a] as f64 + 0.5) * block.voxel_m;
+                position.extend([0, 1, 2].map(|a| centre(a) as f32));
+                volume.push(block.voxel_m.powi(3) as f32);
+            });
+        }
         if volume.is_empty() {
             return Err(Failure::data(format!("'{}' has no adhesive", file.name())));
         }
@@ -61,15 +70,6 @@ impl<'a> Points<'a> {
             columns: vec![column("position", 3, position), column("volume", 1, volume)],
         })
     }
-}
-
-/// How many there are, by their bits: a header can claim any number.
-fn adhesive_voxels(file: &ParticleFile) -> Result<u64, particle_file::Error> {
-    let blocks = file.header().blocks.iter().enumerate();
-    blocks
-        .filter(|(_, block)| block.material == Material::Adhesive)
-        .map(|(index, _)| Ok(file.block(index)?.1.count()))
-        .sum()
 }
 
 pub fn column<'a>(file: &'a ParticleFile, section: &'a Section) -> Result<Column<'a>, Failure> {

@@ -26,6 +26,14 @@ fn grey_values_are_counted_proposed_and_taken() {
     assert!(rows.starts_with("10000,"), "{rows}");
     let count = |row: &str| row.split_once(',').unwrap().1.parse::<u64>().unwrap();
     assert_eq!(rows.lines().map(count).sum::<u64>(), 31 * 20 * 6);
+    told(
+        &bench,
+        &format!("{raw} --histogram h.csv --crop 0:5,0:13,1:3"),
+        0,
+        &[],
+    );
+    let table = fs::read_to_string(bench.path("h.csv")).unwrap();
+    assert_eq!(table.lines().skip(1).map(count).sum::<u64>(), 5 * 13 * 2);
 
     told(&bench, &format!("{raw} --grey auto -o a.mpts"), 0, &[]);
     let found = counts(&open(&bench, "a.mpts"));

@@ -10,17 +10,23 @@ fn a_preview_is_drawn_of_three_cuts_and_needs_no_other_output() {
     told(&bench, "acer.tif --voxel 1.45um --preview look.png", 0, &[]);
     let png = fs::read(bench.path("look.png")).unwrap();
     assert!(png.starts_with(b"\x89PNG"));
-    // Three panels, side by side.
-    let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
-    assert!(side(16) > side(20), "{} x {}", side(16), side(20));
     let folder = bench.path("");
     assert_eq!(fs::read_dir(folder).unwrap().count(), 2);
+    // Three panels, and of grey values three more, which are not turned.
+    let grey = "acer.tif --voxel 1.45um --grey wood=90..200,adhesive=201.. --preview grey.png";
+    let bytes = |line: &str, said| {
+        told(&bench, line, 0, said);
+        fs::metadata(bench.path("grey.png")).unwrap().len()
+    };
+    let beside = bytes(grey, &[]);
+    let level = bytes(&format!("{grey} --level y"), &["without grey values"]);
+    assert!(beside > level + png.len() as u64 / 2, "{beside} {level}");
     let vector = "acer.tif --voxel 1.45um --preview look.svg";
     told(&bench, vector, 2, &["end in .png"]);
 }
 
 #[test]
-fn wood_and_void_that_look_exchanged_are_refused() {
+fn phases_that_look_exchanged_are_refused() {
     let bench = with_acer();
     let run = |more: &str, status, said: &[&str]| {
         told(
@@ -48,9 +54,25 @@ fn wood_and_void_that_look_exchanged_are_refused() {
     assert!(bench.path("o.mpts").exists());
     // By grey values too: void is brighter than wood.
     run("--grey wood=..64,adhesive=200..", 2, &[]);
+    let adhesive = "--labels void=255,wood=128,adhesive=0";
+    let said = [
+        "void and adhesive look exchanged",
+        "along y",
+        "--yes-really",
+    ];
+    run(adhesive, 2, &said);
+    run(&format!("{adhesive} --yes-really"), 0, &said[..1]);
     assert!(!run("", 0, &[]).contains("warning"));
+    // Adhesive that fills all pores, and a crack in the bond line.
     let other = run("--labels void=0,wood=255,adhesive=128", 0, &[]);
     assert!(!other.contains("exchanged"), "{other}");
+    let cracked = |_, y: usize, z| match y {
+        10..14 => 0,
+        9 | 14 => [0, 255][z % 2],
+        _ => [128, 255][y / 3 % 2],
+    };
+    bench.write("crack.tif", tiff([20, 24, 10], cracked));
+    told(&bench, "crack.tif -o o.mpts", 0, &[]);
 }
 
 #[test]
@@ -92,20 +114,16 @@ fn specks_are_taken_out_where_that_is_asked_for() {
 }
 
 #[test]
-fn an_edge_in_the_wrong_unit_is_doubted() {
+fn an_edge_in_the_wrong_unit_is_refused() {
     let bench = with_acer();
-    for (edge, doubted) in [
-        ("1.45mm", true),
-        ("1.45nm", true),
-        ("20um", false),
-        ("0.1um", false),
+    for (edge, status) in [
+        ("1.45mm", 2),
+        ("1.45nm", 2),
+        ("1.45mm --yes-really", 0),
+        ("50um", 0),
     ] {
-        let said = told(&bench, &format!("acer.tif --voxel {edge} -o -"), 0, &[]);
-        assert_eq!(
-            said.contains("is the unit right?"),
-            doubted,
-            "{edge}: {said}"
-        );
+        let line = format!("acer.tif --voxel {edge} -o -");
+        told(&bench, &line, status, &["is the unit right?"]);
     }
 }
 

@@ -45,7 +45,7 @@ fn open(bench: &Bench, name: &str) -> ParticleFile {
 /// A TIFF with voxels of 1.45 um.
 fn tiff([nx, ny, nz]: [usize; 3], label: impl Fn(usize, usize, usize) -> u8) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut writer = TiffWriter::new(&mut bytes, [nx, ny, nz], 1.45e-6).unwrap();
+    let mut writer = TiffWriter::new(&mut bytes, [nx, ny, nz], 1.45e-6, "").unwrap();
     for z in 0..nz {
         let page: Vec<u8> = (0..nx * ny).map(|i| label(i % nx, i / nx, z)).collect();
         writer.write_page(&page).unwrap();
