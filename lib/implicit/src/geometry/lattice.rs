@@ -212,7 +212,12 @@ fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a 
 #[cfg(test)]
 impl super::mesh::Mesh {
     /// Open cells between mirrors, one across: so many below and above a gap of so many that closes.
-    pub(crate) fn column([below, above]: [usize; 2], gap: usize) -> Self {
+    pub(crate) fn column(parts: [usize; 2], gap: usize) -> Self {
+        Self::column_from(parts, gap, 0)
+    }
+
+    /// The rows of it from `start` on.
+    pub(crate) fn column_from([below, above]: [usize; 2], gap: usize, start: usize) -> Self {
         let layers = |n: usize| vec![vec![OPEN]; n];
         let (body, down) = (0, true);
         let lattice = Lattice {
@@ -222,6 +227,6 @@ impl super::mesh::Mesh {
             ..Lattice::still(1, [1, 1], [Boundary::Symmetry; 3], layers(above))
         };
         let rows = lattice.rows();
-        Self::whole(&lattice, rows, 0..rows.len())
+        Self::whole(&lattice, rows, start..rows.len())
     }
 }

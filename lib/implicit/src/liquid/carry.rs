@@ -8,6 +8,10 @@ use rayon::prelude::*;
 
 use crate::geometry::{Mesh, Region, RowKind, Rows};
 
+/// Cells that friction looks along walls for steps: what it finds from a row nearer to the end of a mesh is not what it finds in
+/// a longer one.
+const SEEN: usize = 2;
+
 /// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
     let row = match new.rows().kind(row) {
@@ -58,7 +62,8 @@ impl Kept {
     pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
         let in_rows = |mesh: &Mesh, row: usize| {
             let range = &mesh.range;
-            (row == 0 || row > range.start) && (row + 1 == mesh.rows().len() || row + 1 < range.end)
+            (range.start == 0 || row >= range.start + SEEN)
+                && (range.end == mesh.rows().len() || row + SEEN < range.end)
         };
         let inner = old.region.inner(old.periodic());
         let old_cell = |pore: usize| {
@@ -243,6 +248,18 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What friction finds two rows from the end of a mesh is found anew when the mesh grows there.
+    #[test]
+    fn faces_near_the_end_of_a_mesh_are_not_kept() {
+        let [whole, short] = [0, 4].map(|start| Mesh::column_from([12, 1], 2, start));
+        let kept = Kept::new(&whole, &short);
+        let rows: Vec<usize> = (0..whole.faces.len())
+            .filter(|&face| kept.whole(face).is_some())
+            .map(|face| whole.row_of(whole.faces[face].low as usize))
+            .collect();
+        assert_eq!(rows, [6, 7, 8, 9, 10]);
+    }
 
     #[test]
     fn volumes_add_up_and_pressures_do_not() {

@@ -66,13 +66,16 @@ impl Implicit {
             travel_m: travel,
             pressure_bottom: pressure(self.setup.bottom, -1.0),
             pressure_top: pressure(self.setup.top, 1.0),
-            // One point a voxel.
-            lost: (self.state.lost * self.setup.lattice.k.pow(3) as f64).round() as u64,
+            lost: (self.state.lost * self.setup.points_per_cell).round() as u64,
             iterations: flow.iterations,
         };
         self.state.flow = flow;
         if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
             self.keep_air(gas, air, settled, dt);
+        }
+        // A state has no row without height.
+        if self.setup.lattice.moving.is_some() && self.height == 0.0 {
+            self.fit_mesh();
         }
         report
     }

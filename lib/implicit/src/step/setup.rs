@@ -46,6 +46,8 @@ pub(super) struct Setup {
     pub(super) influence_length: f64,
     pub(super) bottom: Option<usize>,
     pub(super) top: Option<usize>,
+    /// Points of the scene over the cells that they fill.
+    pub(super) points_per_cell: f64,
     /// Area that pressures refer to, m2.
     area: f64,
     /// Whether there is a clamp, and whether it has a pressure limit.
@@ -97,6 +99,7 @@ impl Setup {
             place,
             gravity: scene.gravity,
             influence_length: scene.wall.influence_length() / cell_m,
+            points_per_cell: scene.points.position.len() as f64 / volumes.iter().sum::<f64>(),
             bottom: scene.bottom,
             top: scene.top,
             area: scene.grid.area_m2(),

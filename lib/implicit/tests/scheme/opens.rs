@@ -1,6 +1,6 @@
 //! A press programme whose bodies meet, and one whose clamp gives way.
 
-use physics::{Motion, Press, Scene, Scheme, Stop};
+use physics::{Boundary, Motion, Press, Scene, Scheme, Stop};
 
 use crate::plain;
 use crate::runs::{advance, at_rest, block, clamp, plainly, press, stage};
@@ -71,4 +71,39 @@ fn a_programme_goes_on_after_its_bodies_have_met() {
     let [least, last, volume] = pressed(&scene(gap, [8, 8], 1e6), gap);
     assert!(least.abs() < 1e-9 && last.abs() < 0.02);
     assert!((volume - 1.0).abs() < 1e-6);
+}
+
+/// Where bodies meet no row of the gap is left, which would have liquid without a velocity.
+#[test]
+fn liquid_of_a_gap_that_has_closed_has_velocities() {
+    let gap = 0.8;
+    let mut scene = scene(gap, [8, 8], 1e6);
+    scene.programme.clear();
+    let mut scheme = plainly(&scene);
+    let mut left = gap;
+    while left > 1e-9 {
+        left = gap - advance(&mut scheme, 1.0).travel_m / CELL;
+    }
+    let liquid = scheme.liquid();
+    assert!((liquid.velocity.as_flattened().iter()).all(|v| v.is_finite()));
+    let low = |at: &[f32; 3]| f64::from(at[1]) < 2.0 * CELL;
+    assert!(!liquid.position.iter().any(low));
+}
+
+/// Liquid that leaves counts in points of the scene, four of which are in a cell of one voxel here.
+#[test]
+fn liquid_that_leaves_counts_in_points() {
+    let mut scene = scene(4.0, [16, 0], 1e9);
+    scene.programme.clear();
+    scene.boundary[0] = Boundary::Open;
+    let points = scene.points.position.len() as f64;
+    let mut scheme = plainly(&scene);
+    let start = at_rest(&scene, &scheme.liquid());
+    let report = (0..6).map(|_| advance(&mut scheme, 1e-3)).last().unwrap();
+    let left = 1.0 - at_rest(&scene, &scheme.liquid()) / start;
+    println!(
+        "{left:.4} of the liquid left, {} of {points} points",
+        report.lost
+    );
+    assert!(left > 0.1 && (report.lost as f64 / points / left - 1.0).abs() < 0.01);
 }
