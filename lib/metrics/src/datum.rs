@@ -134,13 +134,14 @@ impl Datum {
         }
     }
 
-    /// On which side of the bond `point` is, and its distance (m) from the zero of that side.
+    /// On which side of the bond `point` is, on both where it is on the plane between them, and its distance (m) from the zero
+    /// of that side.
     pub fn depth(&self, point: [f64; 3]) -> (Side, f64) {
         match self {
             Datum::Level { normal, .. } => self.depth_of_level(point[normal.index()]),
             Datum::Tilted(plane) => {
                 let distance = plane.distance(point);
-                (Side::of(distance), distance.abs())
+                (Side::of(distance, plane.centre_m()), distance.abs())
             }
         }
     }
@@ -148,11 +149,13 @@ impl Datum {
     /// [`Datum::depth`] of any point at this coordinate along the normal; of a tilted plane,
     /// at the centre of the bond area.
     pub fn depth_of_level(&self, coordinate: f64) -> (Side, f64) {
-        let side = Side::of(coordinate - self.plane_m(Side::Total));
-        let zero = self.plane_m(side);
+        let side = Side::of(coordinate - self.plane_m(Side::Total), coordinate);
+        let below = self.plane_m(Side::Bottom) - coordinate;
+        let above = coordinate - self.plane_m(Side::Top);
         let beyond = match side {
-            Side::Bottom => zero - coordinate,
-            _ => coordinate - zero,
+            Side::Bottom => below,
+            Side::Top => above,
+            Side::Total => below.max(above),
         };
         (side, beyond.max(0.0))
     }

@@ -26,7 +26,8 @@ impl Map {
         };
         state.for_each_parcel(|point, volume| {
             let (on, depth) = datum.depth(point);
-            if side.includes(on) {
+            let volume = side.share(on) * volume;
+            if volume > 0.0 {
                 let column = across.column(point);
                 map.volume_m3[column] += volume;
                 map.moment[column] += volume * depth * depth;

@@ -20,18 +20,26 @@ impl Side {
     /// All sides in the order of the table.
     pub const ALL: [Side; 3] = [Side::Bottom, Side::Top, Side::Total];
 
-    /// The side of a signed height above the bond line.
-    pub fn of(height: f64) -> Side {
-        if height < 0.0 {
+    /// The side of a signed height above the bond line; both where that is rounding, at a `coordinate` of so much.
+    pub(crate) fn of(height: f64, coordinate: f64) -> Side {
+        /// Rounding of a coordinate in single precision and of what is added to it, and of one at 0, m.
+        const ROUNDING: [f64; 2] = [1e-6, 1e-12];
+        if height.abs() <= ROUNDING[0] * coordinate.abs() + ROUNDING[1] {
+            Side::Total
+        } else if height < 0.0 {
             Side::Bottom
         } else {
             Side::Top
         }
     }
 
-    /// Whether this includes `side`.
-    pub fn includes(self, side: Side) -> bool {
-        self == Side::Total || self == side
+    /// Part of what lies on `side` that counts here: half on each side of what lies on the plane between them.
+    pub(crate) fn share(self, side: Side) -> f64 {
+        match (self, side) {
+            (Side::Total, _) => 1.0,
+            (_, Side::Total) => 0.5,
+            _ => f64::from(u8::from(self == side)),
+        }
     }
 }
 
@@ -73,7 +81,7 @@ pub struct Penetration {
 
 /// Penetration of the bottom, the top and in total.
 ///
-/// Voxels count at their centres. The square of the total WP is the volume-weighted mean of
+/// Voxels count at their centres; those whose centre is on the plane between the sides count half to each. The square of the total WP is the volume-weighted mean of
 /// the squares of the sides.
 pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let layers = layers(state, datum);
@@ -93,9 +101,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let mut sums = [Sum::NONE; 3];
     each(&mut |sample| {
         for (sum, side) in sums.iter_mut().zip(Side::ALL) {
-            if side.includes(sample.side) {
-                sum.add(&sample);
-            }
+            sum.add(&sample, side.share(sample.side));
         }
     });
     let area = state.area_m2() * datum.slant();
@@ -104,8 +110,9 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
         let (side, sum) = (Side::ALL[i], sums[i]);
         let depths = |visit: &mut dyn FnMut(f64, f64)| {
             each(&mut |sample| {
-                if side.includes(sample.side) {
-                    visit(sample.depth, sample.volume);
+                let share = side.share(sample.side);
+                if share > 0.0 {
+                    visit(sample.depth, share * sample.volume);
                 }
             });
         };
@@ -120,7 +127,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
             p95_depth_m,
             p99_depth_m,
             volume_m3: sum.volume,
-            voxels: sum.voxels,
+            voxels: sum.voxels.round() as u64,
         }
     })
 }
@@ -138,7 +145,7 @@ struct Sample {
 struct Sum {
     volume: f64,
     squares: f64,
-    voxels: u64,
+    voxels: f64,
     /// NaN without samples.
     deepest: f64,
 }
@@ -147,14 +154,18 @@ impl Sum {
     const NONE: Self = Self {
         volume: 0.0,
         squares: 0.0,
-        voxels: 0,
+        voxels: 0.0,
         deepest: f64::NAN,
     };
 
-    fn add(&mut self, sample: &Sample) {
-        self.volume += sample.volume;
-        self.squares += sample.volume * sample.depth * sample.depth;
-        self.voxels += sample.voxels;
+    fn add(&mut self, sample: &Sample, share: f64) {
+        if share == 0.0 {
+            return;
+        }
+        let volume = share * sample.volume;
+        self.volume += volume;
+        self.squares += volume * sample.depth * sample.depth;
+        self.voxels += share * sample.voxels as f64;
         self.deepest = self.deepest.max(sample.depth);
     }
 }

@@ -25,13 +25,19 @@ fn a_slab_has_not_penetrated() {
         .flat_map(|n| [1, 2, 13, 38].map(|t| (n, t)))
     {
         let stack = slab(normal, t);
-        let total = measured(&stack.state(normal), Reference::Mid)[2];
+        let [bottom, top, total] = measured(&stack.state(normal), Reference::Mid);
         // Voxels at their centres: variance (t^2 - 1) / 12, of a continuous slab t^2 / 12.
         let t = t as f64;
         let exact = ((t * t - 1.0) / 12.0).sqrt() * VOXEL;
         assert!(close(total.wp_m, exact, 1e-9), "{normal} {t}: {total:?}");
         assert!(close(total.slab_wp_m, t * VOXEL / 12_f64.sqrt(), 1e-12));
         assert!(close(total.ep_m, t * VOXEL, 1e-12));
+        // The middle layer of an odd number counts half to each side.
+        assert!(
+            [bottom, top]
+                .iter()
+                .all(|side| close(side.ep_m, 0.5 * t * VOXEL, 1e-12))
+        );
         assert!(close(total.plane_m, (30.0 + 0.5 * t) * VOXEL, 1e-12));
         assert!((total.max_depth_m - 0.5 * (t - 1.0) * VOXEL).abs() < 1e-12);
         // Measured from the adherends, what lies between has no depth.
