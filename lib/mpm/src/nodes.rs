@@ -103,6 +103,7 @@ impl Block {
     }
 
     /// Sums the tiles, applies contact and sides, and updates the momentum of all nodes.
+    #[inline(never)] // `make leave-out` counts its instructions by its name
     pub(crate) fn advance<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         self.reaction.fill([0.0; 3]);
         let walls = self.walls.iter().any(|w| w.near != 0);
@@ -187,6 +188,7 @@ impl Block {
 
     /// One step of the recursion w_l = (I - S+ S) w_{l-1}, added to v*. The increment of a
     /// body's velocity is zero for l >= 2, so contact only restrains.
+    #[inline(never)] // `make leave-out` counts its instructions by its name
     pub(crate) fn refine<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         let sums = sums::<Lanes4, 1>(&self.spans, |t| &tiles[t].filtered, [0]);
         for node in 0..self.velocity.len() {

@@ -28,21 +28,24 @@ impl Implicit {
         };
         self.failure(&format!("no acceptable time step was found: {why}"))
     }
-}
 
-/// A system of the step that was not solved.
-pub(super) fn unsolved(error: &SolveError) -> String {
-    match error {
-        SolveError::NotFinite { .. } => format!(
-            "{error}; speeds, gravity or pressures of the case or of the step before are beyond all bounds, and a \
-             smaller integrator.cfl may help where the case is not to blame"
-        ),
-        SolveError::Unsolved { error, cause } => format!("{error}: {}", advice(*cause)),
-        _ => error.to_string(),
+    /// A system of the step that was not solved.
+    pub(super) fn unsolved(&self, error: &SolveError) -> String {
+        match error {
+            SolveError::NotFinite { .. } => format!(
+                "{error}; speeds, gravity or pressures of the case or of the step before are beyond all bounds, and a \
+                 smaller integrator.cfl may help where the case is not to blame"
+            ),
+            SolveError::Unsolved { error, cause } => {
+                format!("{error}: {}", advice(*cause, self.setup.lattice.k))
+            }
+            _ => error.to_string(),
+        }
     }
 }
 
-fn advice(cause: Cause) -> String {
+/// What to change in a case with cells of `k` voxels.
+fn advice(cause: Cause, k: usize) -> String {
     match cause {
         Cause::Unbalanced { cells } => format!(
             "walls move into {cells} cells of liquid that is enclosed and has no way out but to be compressed; a \
@@ -56,6 +59,9 @@ fn advice(cause: Cause) -> String {
             "inertia, rho h^2/(eta dt), is {ratio:.0e} times the viscous stress in a cell: a higher viscosity, an earlier \
              end where nothing flows any more or scheme = \"explicit\" is needed"
         ),
+        Cause::Unknown if k == 2 => "where liquid gets out through openings of one voxel alone, grid.cell = \"1 voxel\" is \
+                                     needed; a smaller integrator.cfl makes the steps and their systems easier"
+            .into(),
         Cause::Unknown => {
             "a smaller integrator.cfl makes the steps and their systems easier, a larger \
                            integrator.tolerance asks for less"

@@ -6,7 +6,6 @@ use std::time::Instant;
 use super::Implicit;
 use super::compression::Compression;
 use super::exchange::Exchange;
-use super::failure::unsolved;
 use crate::air::Air;
 use crate::clock::{Clock, Stage};
 use crate::liquid::transport;
@@ -305,7 +304,7 @@ impl Implicit {
             }
         }
         let flow = solve(&problem, &carried, drive, guess, &self.solver, clock)
-            .map_err(|error| unsolved(&error))?;
+            .map_err(|error| self.unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());
         let holds = compression.holds(&unknowns.pores, &guess.pressure, &flow.pressure);

@@ -16,7 +16,7 @@ type Stage = (&'static str, &'static [&'static str]);
 fn stages(scheme: Scheme) -> &'static [Stage] {
     match scheme {
         Scheme::Explicit => &[
-            ("bodies at nodes", &["Grid::see_bodies", "contact::meeting"]),
+            ("bodies at nodes", &["Grid::see_bodies"]),
             ("nodes", &["Block::advance"]),
             (
                 "velocity filter",
