@@ -36,6 +36,25 @@ fn pressure_and_speed_have_units_labels_and_both_lines() {
     assert!(width == 1600 && blue > 5e-4 && red > 5e-4);
 }
 
+/// A press at 1 MPa once had a line at the paper's 2.5 MPa.
+#[test]
+fn the_limit_is_that_of_the_runs_unless_one_is_given() {
+    let folder = Folder::new();
+    let run = folder.labelled("a", history(1e6));
+    folder.file("bondline-run.toml", "");
+    folder.file("resolved.toml", "[clamp]\nmax_pressure = \"1 MPa\"\n");
+    says(&closed(from_ref(&run)), &["pressure limit, 1 MPa"]);
+    let elsewhere = Folder::new();
+    let other = elsewhere.labelled("b", history(1e6));
+    let both = closed(&[run, other]);
+    assert!(
+        !both
+            .text_boxes()
+            .iter()
+            .any(|one| one.text.contains("limit"))
+    );
+}
+
 /// The line of a run at twice the pressure must reach twice as high: measured on the pixels.
 #[test]
 fn lines_stand_at_the_height_of_their_data() {
