@@ -220,13 +220,15 @@ fn a_plot_has_titles_labels_and_marks() {
 #[test]
 fn a_sweep_is_drawn_without_the_runs_that_failed() {
     let folder = Folder::new();
-    let drawn = |status: &str| {
+    let drawn = |status: &str, result: &str| {
         let rows = ["1,1,sound,10,1e5".to_owned(), format!("2,2,{status},,")];
         let sweep = folder.labelled("sweep", csv("row,mu,status,wp_um,pressure_pa", rows));
-        response(&sweep, "wp_um", None, Page::default())
+        response(&sweep, result, None, Page::default())
     };
-    let drawing = drawn("failed").unwrap();
+    let lacks = drawn("failed", "wp").unwrap_err();
+    assert!(matches!(lacks, Error::Request(said) if said.contains("no column wp: it has")));
+    let drawing = drawn("failed", "wp_um").unwrap();
     assert_eq!(drawing.to_svg().unwrap().matches("(MPa)").count(), 1);
-    let said = drawn("sound").unwrap_err().to_string();
+    let said = drawn("sound", "wp_um").unwrap_err().to_string();
     assert!(said.contains("line 3, column wp_um: ''"), "{said}");
 }
