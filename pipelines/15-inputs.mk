@@ -17,7 +17,7 @@ NEAR = $(sort $(filter $(shell printf %.3s $(call q,$(SLIP)) | tr a-z A-Z)%,$(sh
 $(if $(SLIP),$(error make has no variable $(SLIP)=$(if $(NEAR),$(COMMA) but $(NEAR)): make help lists all))
 
 # Values that there are; what belongs to another kind of specimen.
-CASES := $(patsubst pipelines/cases/pf-%.toml,%,$(wildcard pipelines/cases/pf-*.toml))
+CASES := $(patsubst pf-%.toml,%,$(notdir $(wildcard pipelines/cases/pf-*.toml)))
 $(foreach v,PAPER ERROR,$(if $(filter-out yes no,$($(v))),$(error $(v)=$($(v)): yes and no are accepted)))
 $(foreach v,JOBS RUN_THREADS,$(if $($(v)),$(if $(shell printf %s $(call q,$($(v))) | grep -xE '[1-9][0-9]{0,3}'),,\
     $(error $(v)=$($(v)): a whole number from 1 to 9999 is needed))))
