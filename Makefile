@@ -9,6 +9,7 @@
 #   make JOBS=2 RUN_THREADS=1     so many runs side by side, on so many threads each
 #   make SET="adhesive.viscosity=500 cP clamp.max_pressure=1 MPa"   with keys of the cases changed
 #   make CELL="1 voxel"           in other cells than those of two voxels
+#   make BOND="--crop-to-fit --drop-islands"   bonds built with these options of build-bondline
 #   make YES=1                    starts runs of more than an hour unasked; V=1 shows commands and CSV
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif [VOXEL="1.45 um"] [LABELS=void=0,wood=1,adhesive=2]
 #                                 your own stacks, implicit runs alone unless RUNS says more

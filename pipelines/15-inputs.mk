@@ -1,5 +1,6 @@
 # The user's own stacks, and what of a command line is refused before anything is made.
 
+COMMA := ,
 STACKS := XCT_PF XCT_PVA_PF XCT_BOTTOM XCT_TOP
 # A `$` in them is one.
 $(foreach v,$(STACKS) SWEEP SWEEP_CASE SET,$(eval override $(v) := $$(value $(v))))
@@ -8,12 +9,24 @@ OWN := $(if $(strip $(foreach v,$(STACKS),$($(v)))),yes)
 # One word for the shell.
 q = '$(subst ','\'',$(1))'
 
-# What nothing here reads is a slip; compilers, shells and threads read their own.
-READ = $(shell grep -ohE '\$$.[A-Z][A-Z0-9_]*|[A-Z][A-Z0-9_]*=' Makefile pipelines/*.mk | sed 's/^\$$.//; s/=$$//')
+# What nothing here names with a `=` or gives a default is a slip; compilers, shells and threads read their own.
+READ = $(shell grep -ohE '[A-Z][A-Z0-9_]*( [?])?=' Makefile pipelines/*.mk | sed 's/[ ?=]*$$//')
 GIVEN := $(foreach v,$(.VARIABLES),$(if $(filter line,$(origin $(v))),$(v)))
 SLIP := $(firstword $(if $(GIVEN),$(filter-out CARGO% RUST% RAYON% CC CXX CFLAGS SHELL PATH TMPDIR $(READ),$(GIVEN))))
 NEAR = $(sort $(filter $(shell printf %.3s $(call q,$(SLIP)) | tr a-z A-Z)%,$(shell grep -oE '[A-Z][A-Z0-9_]+=' Makefile)))
 $(if $(SLIP),$(error make has no variable $(SLIP)=$(if $(NEAR),$(COMMA) but $(NEAR)): make help lists all))
+
+# Values that there are; what belongs to another kind of specimen.
+CASES := $(patsubst pf-%.toml,%,$(notdir $(wildcard pipelines/cases/pf-*.toml)))
+$(foreach v,PAPER ERROR,$(if $(filter-out yes no,$($(v))),$(error $(v)=$($(v)): yes and no are accepted)))
+$(foreach v,JOBS RUN_THREADS,$(if $($(v)),$(if $(shell printf %s $(call q,$($(v))) | grep -xE '[1-9][0-9]{0,3}'),,\
+    $(error $(v)=$($(v)): a whole number from 1 to 9999 is needed))))
+$(if $(findstring :$(SCALE):,:quick:small:medium:full:),,$(error SCALE=$(SCALE): quick$(COMMA) small$(COMMA) medium and full are there))
+$(foreach r,$(filter-out $(CASES),$(RUNS)),$(error RUNS: there is no run '$(r)' but $(CASES)))
+$(if $(filter line,$(origin RUNS)),$(if $(strip $(RUNS)),,$(error RUNS= names no run: there are $(CASES))))
+alone = $(foreach v,$(1),$(if $(and $(filter line,$(origin $(v))),$($(v))),$(error $(v)= is for $(2) alone: leave it out)))
+$(call alone,$(if $(OWN),SCALE,LABELS),$(if $(OWN),synthetic specimens,your own stacks))
+$(call alone,$(if $(XCT_BOTTOM)$(XCT_TOP),,SLAB PLANE TURN),undamaged wood (XCT_BOTTOM=))
 
 # In the names of stacks, which only the tools see, anything may be; the results are make's own.
 AWKWARD := $(shell [ -z "$$(printf %s $(call q,$(value OUT)) | LC_ALL=C tr -d 'A-Za-z0-9._/+@^\200-\377-')" ] || echo yes)

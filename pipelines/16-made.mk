@@ -4,7 +4,6 @@
 # is $(COMMA) and names are of `$$` where the rule is evaluated; of its other prerequisites; and of READS, what make has no
 # rule for, as words of the shell. OUTPUTS are files that COMMAND writes beside it. FORCE has each rule looked at.
 
-COMMA := ,
 # Letters of make's flags: -n says what would be made, behind what it would make anew; -B makes all.
 LETTERS = $(firstword -$(MAKEFLAGS))
 DRY = $(findstring n,$(LETTERS))

@@ -26,6 +26,8 @@ endef
 STACK_pf := XCT_PF
 STACK_pva-pf := XCT_PVA_PF
 
+# Options of build-bondline, a word each.
+BOND_OPTIONS = $(foreach word,$(BOND),$(call q,$(word)))
 EXPERIMENTS := $(ADHESIVES:%=$(OUT)/%/experiment.mpts)
 BONDS := $(ADHESIVES:%=$(OUT)/%/bond.mpts)
 
@@ -42,7 +44,7 @@ endif
 
 ifeq ($(XCT_BOTTOM),)
 $(BONDS): %/bond.mpts: %/experiment.mpts $(BIN)/build-bondline FORCE
-	$(call made,$(BIN)/build-bondline $(if $(OWN),,--quiet) $< --normal $(call q,$(NORMAL)) -o $@)
+	$(call made,$(BIN)/build-bondline $(if $(OWN),,--quiet) $< --normal $(call q,$(NORMAL)) -o $@ $(BOND_OPTIONS))
 else
 # Undamaged wood, which is no experiment: two stacks, or one cut at PLANE.
 EXPERIMENTS :=
@@ -54,5 +56,5 @@ $(if $(TOP),$(eval $(call stack_rule,$(TOP),XCT_TOP)))
 
 $(BONDS): $(BOTTOM) $(TOP) $(BIN)/build-bondline FORCE
 	$(call made,$(BIN)/build-bondline $(if $(TOP),--bottom $(BOTTOM) --top $(TOP),$(BOTTOM) --plane $(call q,$(PLANE))) \
-	    --slab $(call q,$(SLAB)) --turn-top $(call q,$(TURN)) --normal $(call q,$(NORMAL)) -o $@)
+	    --slab $(call q,$(SLAB)) --turn-top $(call q,$(TURN)) --normal $(call q,$(NORMAL)) -o $@ $(BOND_OPTIONS))
 endif

@@ -1,7 +1,7 @@
 # Undamaged wood of four species, one piece cut and bonded again: Table 2 of the species. Three pieces of each, for small ones
 # differ; the first one's runs again in cells of one voxel, for their errors (30-runs.mk). A few minutes.
 
-SPECIES := hybrid-poplar beech birch spruce
+SPECIES ?= hybrid-poplar beech birch spruce
 SPECIES_SEEDS ?= 1 2 3
 # Voxels of 1.45 um along x, y and z, as small as those of plain `make`; where to cut; adhesive; turn of the top piece, 90 for
 # plywood.

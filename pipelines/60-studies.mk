@@ -40,8 +40,9 @@ kernels:
 	$(CARGO) run --release --quiet -p saddle-point --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
 
 # 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
+COUNT ?= 50000
 .PHONY: forge
 forge:
 	@$(CARGO) test --release --quiet -p attack --test seeded --no-run
-	ulimit -v 4000000; ATTACKS=$(or $(COUNT),50000) $(CARGO) test --release --quiet -p attack --test seeded -- \
+	ulimit -v 4000000; ATTACKS=$(COUNT) $(CARGO) test --release --quiet -p attack --test seeded -- \
 	    --nocapture $(patsubst %,mutated_%s,$(subst -,_,$(or $(ONLY),particle-file checkpoint)))

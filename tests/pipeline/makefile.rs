@@ -56,9 +56,37 @@ fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
     );
     refuse(&["SET=grid.cell=1 um", "runs"], "give CELL=");
     let slip =
-        "no variable XCT_PFF= but XCT_BOTTOM= XCT_PF= XCT_PVA_PF= XCT_TOP=: make help lists all.";
+        "no variable XCT_PFF=, but XCT_BOTTOM= XCT_PF= XCT_PVA_PF= XCT_TOP=: make help lists all.";
     refuse(&["XCT_PFF=a.tif", "runs"], slip);
     refuse(&["THREADS=2", "runs"], "no variable THREADS=: make help");
+    refuse(&["SETS=a=1", "runs"], "no variable SETS=, but SET=: make");
+    plan(
+        &["XCT_PF=a.tif", "BOND=--crop-to-fit --drop-islands", "runs"],
+        &["--normal 'y' -o out/xct/pf/bond.mpts '--crop-to-fit' '--drop-islands'"],
+    );
+}
+
+/// Variables of another kind of specimen, and values that are none, were passed over.
+#[test]
+fn what_a_variable_cannot_be_is_refused() {
+    let scales = "SCALE=tiny: quick, small, medium and full are there.";
+    for (given, sentence) in [
+        ("SLAB=1 um", "SLAB= is for undamaged wood"),
+        ("PLANE=1 um", "PLANE= is for undamaged wood"),
+        ("TURN=90", "TURN= is for undamaged wood"),
+        ("SCALE=small", "SCALE= is for synthetic specimens alone"),
+        ("SCALE=tiny", scales),
+        ("ERROR=nein", "ERROR=nein: yes and no are accepted."),
+        ("JOBS=0", "JOBS=0: a whole number from 1 to 9999"),
+        ("RUNS=implict", "no run 'implict' but flip frictionless"),
+        ("RUNS=", "RUNS= names no run: there are flip"),
+    ] {
+        refuse(&["XCT_PF=a.tif", given, "runs"], sentence);
+    }
+    refuse(
+        &["LABELS=wood=1", "runs"],
+        "LABELS= is for your own stacks alone",
+    );
 }
 
 /// Names that make reads as its own once gave make's own messages, or another file.
@@ -169,7 +197,7 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
 fn figures_and_the_page_name_what_they_draw() {
     plan(
         &[
-            "SCALE=none",
+            "OUT=out/none",
             "RUNS=flip implicit",
             "ERROR=no",
             "out/none/figures/pf-adhesive.svg",

@@ -94,7 +94,7 @@ fn runs_without_an_error_are_held_against_the_extrapolated_one() {
 #[test]
 fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
     let bench = Workbench::new();
-    for folder in ["failed", "killed"] {
+    for folder in ["failed", "killed", "wood", "elsewhere"] {
         std::fs::create_dir(bench.path(folder)).unwrap();
         let case = "[grid]\ncell = \"2 um\"\n";
         bench.write(&format!("{folder}/resolved.toml"), case);
@@ -111,7 +111,10 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
         "synth-xct -q --adhesive pf -o a.tif
          xct2particles -q a.tif --labels void=128,wood=0,adhesive=255 --yes-really -o failed/final.mpts
          xct2particles -q a.tif -o killed/final.mpts
-         bond-report --run failed --run killed -o page.html",
+         synth-xct -q --adhesive none --size 24x24x24 -o w.tif
+         xct2particles -q w.tif --labels void=0,wood=128 --yes-really -o wood/final.mpts
+         cd elsewhere
+         bond-report --run failed=../failed --run killed=../killed --run wood=../wood -o ../page.html",
     );
     let page = bench.text("page.html");
     assert!(!page.contains("7.77") && !page.contains("killed: wood and void"));
@@ -122,6 +125,9 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
         "failed: wood and void look exchanged",
         "lumens at the bond: 3.5 cells",
         "Beyond the sides: air is closed off: failed.",
+        "<td>w.tif (synthetic)</td>",
+        "of its \u{201c}experiment\u{201d}: failed, killed.",
+        "Synthetic specimens: a program grew the wood: wood.",
     ] {
         assert!(page.contains(told), "{told}");
     }

@@ -36,7 +36,7 @@ impl Error {
 
     /// That of a specimen without an adhesive voxel.
     pub fn no_adhesive() -> Self {
-        Self::unfit("the specimen has no adhesive voxel").help(
+        Self::new("the specimen has no adhesive voxel").help(
             ": a bonded specimen is needed, or, to bond wood alone, build-bondline with --slab or --spread",
         )
     }

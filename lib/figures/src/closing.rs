@@ -7,6 +7,7 @@ use crate::cell_band::{self, Reach, band, parts};
 use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
+use crate::known::limit_of;
 use crate::legend::{Legend, Stroke, patch};
 use crate::measure;
 use crate::page::Page;
@@ -52,8 +53,8 @@ const BAND_SHADE: f64 = 0.25;
 
 /// Clamping pressure and closing speed against time, one line per run (Figs. 5 and 6 of the
 /// paper), from the `history.csv` of each run. What runs in cells half as large (`finer`, by the label of
-/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line, the stages of press programmes as thin
-/// lines where they begin, with the names of those of the first.
+/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line, or else the one that the cases of all
+/// runs have, the stages of press programmes as thin lines where they begin, with the names of those of the first.
 ///
 /// # Errors
 /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
@@ -66,6 +67,7 @@ pub fn closing(
     title: &str,
     page: Page,
 ) -> Result<Drawing, Error> {
+    let limit = limit.or_else(|| limit_of(runs));
     let runs = read(runs, finer, limit)?;
     let width = page.width().unwrap_or(WIDTH);
     let axes = Axes::over(&runs, limit);

@@ -27,6 +27,22 @@ pub(crate) fn again(command: &[String], option: &str, key: Option<&str>) -> Stri
     format!(":\n    {}", words.join(" "))
 }
 
+/// The SET with which `make` does a run again with this key: that of the run, but for what make gives of its own, and the key.
+pub(crate) fn of_make(command: &[String], key: &str) -> String {
+    if command.is_empty() {
+        return format!("make: {} added to your SET", quoted(key));
+    }
+    let name = key.split_inclusive('=').next().unwrap_or_default();
+    let others = |set: &&str| {
+        let own = ["grid.cell=", "contact.influence_length=0.02 cell", name];
+        !own.iter().any(|own| set.starts_with(own))
+    };
+    let pairs = command.windows(2).filter(|pair| pair[0] == "--set");
+    let sets = pairs.map(|pair| pair[1].as_str()).filter(others);
+    let sets: Vec<&str> = sets.chain([key]).collect();
+    format!("make: SET={}", quoted(&sets.join(" ")))
+}
+
 /// A word for a shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
@@ -40,7 +56,19 @@ fn quoted(word: &str) -> String {
 mod tests {
     use particle_file::{Draft, Header, Kind, Provenance};
 
+    use super::of_make;
     use crate::RunEnd;
+
+    /// The SET of the run was left out, so that another press was run.
+    #[test]
+    fn the_set_of_a_run_is_kept() {
+        let command = "mpm-run|a.toml|--set|grid.cell=1 voxel|--set|adhesive.viscosity=500 cP|--set|clamp.time_limit=20 us";
+        let command: Vec<String> = command.split('|').map(String::from).collect();
+        let set = "make: SET='adhesive.viscosity=500 cP clamp.time_limit=60 us'";
+        assert_eq!(of_make(&command, "clamp.time_limit=60 us"), set);
+        let unknown = "make: 'clamp.time_limit=60 us' added to your SET";
+        assert_eq!(of_make(&[], "clamp.time_limit=60 us"), unknown);
+    }
 
     #[test]
     fn a_killed_run_is_told_with_the_command_of_its_checkpoint() {

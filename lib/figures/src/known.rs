@@ -3,8 +3,9 @@
 use toml::Value;
 use units::Pressure;
 
-use crate::Error;
+use crate::run_end::case_beside;
 use crate::table::Table;
+use crate::{Error, Labelled};
 
 /// A number as it was run, and carried on to cells of no size with the error of that; NaN where it is
 /// not known.
@@ -145,6 +146,18 @@ pub fn pressure_limit(resolved: &str) -> f64 {
     let pressures = stages(&clamp).filter_map(|stage| mpa(stage, "pressure"));
     let limit = mpa(&clamp, "max_pressure");
     limit.into_iter().chain(pressures).fold(f64::NAN, f64::max)
+}
+
+/// The pressure limit of the cases of all runs, Pa; none where they differ or one is a programme.
+pub(crate) fn limit_of(runs: &[Labelled]) -> Option<f64> {
+    let cases = runs.iter().map(|run| case_beside(&run.path));
+    let limits = cases.map(|case| match stage_kinds(&case).is_empty() {
+        true => 1e6 * pressure_limit(&case),
+        false => f64::NAN,
+    });
+    let limits: Vec<f64> = limits.collect();
+    let first = *limits.first()?;
+    limits.iter().all(|limit| *limit == first).then_some(first)
 }
 
 /// The kinds of the stages of its programme.

@@ -44,7 +44,7 @@ const HEIGHT: f64 = 0.74;
 /// by a line.
 ///
 /// # Errors
-/// [`Error::Data`] for a table that is not of a sweep or a result without a number.
+/// [`Error::Data`] for a table that is not of a sweep or a result without a number; [`Error::Request`] for one that it lacks.
 pub fn response(
     sweep: &Labelled,
     result: &str,
@@ -60,6 +60,9 @@ impl Sweep {
         // A run that failed or is not sound has no results.
         let status = table.texts(FIRST_RESULT)?;
         let numbers = |name: &str| table.some_numbers(name, |row| status[row] != "sound");
+        if !table.has(result) {
+            return Err(Error::Request(table.without(result)));
+        }
         let values = numbers(result)?;
         let rows = values.len();
         let mut results = vec![Outcome::new(result, values, error)];

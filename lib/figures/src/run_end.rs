@@ -8,7 +8,7 @@ use particle_file::RUN_MARK;
 use serde_json::Value;
 
 use crate::closing::time_unit;
-use crate::command_line::{self, again};
+use crate::command_line::{self, again, of_make};
 use crate::{Error, Labelled};
 
 const SUMMARY: &str = "summary.json";
@@ -177,8 +177,9 @@ impl RunEnd {
             "time-limit" => {
                 let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
                 let command = again(&self.command, "--overwrite", Some(&limit));
+                let make = of_make(&self.command, &limit);
                 format!(
-                    "{open}: penetration of a press on its way. A longer press: --set \"{limit}\" (make: SET=\"{limit}\"){command}"
+                    "{open}: penetration of a press on its way. A longer press: --set \"{limit}\" ({make}){command}"
                 )
             }
             end => format!("{open} when the run ended ({end})"),
@@ -252,8 +253,7 @@ mod tests {
         let end = RunEnd::of(&summary("time-limit", 4.2e-6));
         assert_eq!(end.mark().unwrap(), "not closed, 42 % of the gap left");
         let advice = end.advice().unwrap();
-        let command =
-            "\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
+        let command = "(make: SET='clamp.time_limit=300 us'):\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
         assert!(advice.ends_with(command), "{advice}");
         assert!(advice.contains("(4.20 um)"), "{advice}");
         for closed in ["closed", "time"] {

@@ -129,14 +129,14 @@ impl Table {
 
     fn index(&self, column: &str) -> Result<usize, Error> {
         let found = self.headers.iter().position(|header| header == column);
-        found.ok_or_else(|| {
-            let present: Vec<&str> = self.headers.iter().collect();
-            Error::Data(format!(
-                "'{}' has no column {column}: it has {}",
-                self.name,
-                present.join(", ")
-            ))
-        })
+        found.ok_or_else(|| Error::Data(self.without(column)))
+    }
+
+    /// That it lacks a column.
+    pub(crate) fn without(&self, column: &str) -> String {
+        let present: Vec<&str> = self.headers.iter().collect();
+        let (name, present) = (&self.name, present.join(", "));
+        format!("'{name}' has no column {column}: it has {present}")
     }
 }
 

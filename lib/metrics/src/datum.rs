@@ -60,7 +60,7 @@ impl Datum {
     pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
         // Undamaged wood is a stack without adhesive.
         if matches!(state.adhesive, Adhesive::Voxels(voxels) if voxels.bits.count() == 0) {
-            return Err(bondline::Error::no_adhesive().into());
+            return Err(Error::Data(bondline::Error::no_adhesive().to_string()));
         }
         let normal = state.normal;
         let level = |bottom, top| Datum::Level {

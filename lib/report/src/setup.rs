@@ -10,8 +10,8 @@ use toml::{Table, Value};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Setup {
     pub(crate) specimen: String,
-    /// Whether a program grew the specimen.
-    pub(crate) synthetic: bool,
+    /// What of the specimen a program grew: wood, wood and adhesive, or nothing.
+    pub(crate) synthetic: String,
     pub(crate) size: String,
     pub(crate) adhesive: String,
     pub(crate) press: String,
@@ -37,8 +37,6 @@ const EFFECTS: [(&str, &str); 3] = [
 const PRESS: &str = "mpm-run";
 /// Keys of one scheme, besides [integrator].
 const OF_SCHEMES: [(&str, &str); 2] = [("clamp", "pid"), ("contact", "separation")];
-/// The tool that grows specimens, and what marks its record beside one.
-const GROWN: &str = "\"tool\": \"synth-xct\"";
 
 impl Setup {
     /// Of the run in `folder` with this case; what is not known is a dash.
@@ -70,9 +68,8 @@ impl Setup {
         if let Some((path, _)) = first.and_then(|made| made.inputs.first()) {
             let name = Path::new(path).file_name().unwrap_or_default();
             self.specimen = name.to_string_lossy().into_owned();
-            let record = std::fs::read_to_string(format!("{path}.provenance.json"));
-            self.synthetic = record.is_ok_and(|record| record.contains(GROWN));
         }
+        self.synthetic = header.attribute("synthetic").unwrap_or_default().to_owned();
         let edges = (0..3).map(|a| 1e6 * (header.box_max_m[a] - header.box_min_m[a]));
         let edges: Vec<String> = edges.map(|edge| format!("{edge:.0}")).collect();
         let voxel = (1e6 * header.voxel_m) as f32;

@@ -36,7 +36,11 @@ fn pressed(runs: &[RunFolder]) -> String {
         }
     }
     let row = |(setup, labels): &(&Setup, Vec<&str>)| {
-        let kind = if setup.synthetic { " (synthetic)" } else { "" };
+        let kind = if setup.synthetic.is_empty() {
+            ""
+        } else {
+            " (synthetic)"
+        };
         vec![
             labels.join(", "),
             format!("{}{kind}", setup.specimen),
@@ -127,8 +131,11 @@ fn doubts(runs: &[RunFolder]) -> String {
     };
     say(
         "Synthetic specimens: a program grew the wood and placed the adhesive of its \u{201c}experiment\u{201d}",
-        &|run| run.setup.synthetic,
+        &|run| run.setup.synthetic == "wood and adhesive",
     );
+    say("Synthetic specimens: a program grew the wood", &|run| {
+        run.setup.synthetic == "wood"
+    });
     say(
         "Adhesive came to the outer face of the wood: the specimen is too small",
         &|run| run.outer_face_reached(),

@@ -77,9 +77,9 @@ fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Val
         toml::Value::Array(list) => {
             let length = list.len();
             let index = part.parse::<usize>().ok();
-            index
-                .and_then(|i| list.get_mut(i))
-                .ok_or_else(|| format!("'{part}' is no index of an array of {length}"))
+            index.and_then(|i| list.get_mut(i)).ok_or_else(|| {
+                format!("'{part}' is no index of an array of {length}, which counts from 0")
+            })
         }
         _ => Err(format!("nothing can be set below '{part}'")),
     }

@@ -111,6 +111,9 @@ pub struct PressedStage {
     pub travel_m: f64,
     /// Pressure on the clamp's body then, Pa.
     pub pressure_pa: f64,
+    /// Whether the bond had closed then, under less than the stage's pressure.
+    #[serde(skip)]
+    pub closed_below: bool,
     /// Total WP then, m, where the history tells it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wp_m: Option<f64>,
@@ -118,13 +121,16 @@ pub struct PressedStage {
 
 /// How the stages of a programme ended so far, by a history of this text.
 pub(crate) fn programme(run: Option<&PressRun>, history: &str) -> Vec<PressedStage> {
-    let stages = run.into_iter().flat_map(PressRun::ended);
-    let ended = stages.map(|(stage, end)| PressedStage {
+    let stages = run
+        .into_iter()
+        .flat_map(|run| run.ended().map(move |at| (run, at)));
+    let ended = stages.map(|(run, (stage, end))| PressedStage {
         kind: stage.kind.name(),
         ended_by: end.reason.name(),
         end_s: end.time_s,
         travel_m: end.travel_m,
         pressure_pa: end.pressure,
+        closed_below: run.is_closed_below(stage, end),
         wp_m: history::wp_at(history, end.time_s),
     });
     ended.collect()
@@ -189,6 +195,14 @@ impl Summary {
             End::Set => "ended because the adhesive has set",
             End::Interrupted => "was interrupted",
         };
+        let closed = self.programme.iter().position(|stage| stage.closed_below);
+        let closed = closed.map_or(String::new(), |at| {
+            let kind = self.programme[at].kind;
+            format!(
+                " and closed below its pressure in stage {} ({kind})",
+                at + 1
+            )
+        });
         let gap = self.gap_m.map_or(String::new(), |g| {
             format!(", gap {:.2} um", g.max(0.0) * 1e6)
         });
@@ -209,7 +223,7 @@ impl Summary {
             n => format!(" ({n} points left through open sides)"),
         };
         format!(
-            "The run {end} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
+            "The run {end}{closed} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
             self.steps,
             time(self.time_s, 2),
             pressure(self.final_pressure_pa, 3),

@@ -43,7 +43,7 @@ pub(crate) enum Figure {
         /// difference, is drawn as a band; may be repeated
         #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
         finer: Vec<Labelled>,
-        /// Draw this pressure as a dashed line
+        /// Draw this pressure as a dashed line; without it, the limit that the cases of all runs have
         #[arg(long, value_name = "PRESSURE", value_parser = units::positive::<Pressure>)]
         limit: Option<f64>,
         /// Title above the figure

@@ -3,6 +3,8 @@
 mod arguments;
 mod report;
 
+use std::fs::File;
+use std::io::Read;
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -245,6 +247,13 @@ fn draft<'a>(
     if let Some(normal) = arguments.level {
         header.set_attribute("level", normal.to_string());
     }
+    if inputs.first().is_some_and(|(stack, _)| is_grown(stack)) {
+        let parts = match specimen.adhesive.count() {
+            0 => "wood",
+            _ => "wood and adhesive",
+        };
+        header.set_attribute("synthetic", parts);
+    }
     let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
     header.provenance = vec![Provenance::of_process(tool, version, inputs)];
 
@@ -254,4 +263,12 @@ fn draft<'a>(
     Draft::new(header)
         .block(wood, &specimen.wood)
         .block(adhesive, &specimen.adhesive)
+}
+
+/// Whether a program grew the stack, by the record beside it.
+fn is_grown(stack: &str) -> bool {
+    let mut record = String::new();
+    let file = File::open(format!("{stack}.provenance.json"));
+    let read = file.and_then(|file| file.take(1 << 20).read_to_string(&mut record));
+    read.is_ok() && record.contains("\"tool\": \"synth-xct\"")
 }

@@ -36,6 +36,25 @@ fn pressure_and_speed_have_units_labels_and_both_lines() {
     assert!(width == 1600 && blue > 5e-4 && red > 5e-4);
 }
 
+/// A press at 1 MPa once had a line at the paper's 2.5 MPa.
+#[test]
+fn the_limit_is_that_of_the_runs_unless_one_is_given() {
+    let folder = Folder::new();
+    let run = folder.labelled("a", history(1e6));
+    folder.file("bondline-run.toml", "");
+    folder.file("resolved.toml", "[clamp]\nmax_pressure = \"1 MPa\"\n");
+    says(&closed(from_ref(&run)), &["pressure limit, 1 MPa"]);
+    let elsewhere = Folder::new();
+    let other = elsewhere.labelled("b", history(1e6));
+    let both = closed(&[run, other]);
+    assert!(
+        !both
+            .text_boxes()
+            .iter()
+            .any(|one| one.text.contains("limit"))
+    );
+}
+
 /// The line of a run at twice the pressure must reach twice as high: measured on the pixels.
 #[test]
 fn lines_stand_at_the_height_of_their_data() {
@@ -201,13 +220,15 @@ fn a_plot_has_titles_labels_and_marks() {
 #[test]
 fn a_sweep_is_drawn_without_the_runs_that_failed() {
     let folder = Folder::new();
-    let drawn = |status: &str| {
+    let drawn = |status: &str, result: &str| {
         let rows = ["1,1,sound,10,1e5".to_owned(), format!("2,2,{status},,")];
         let sweep = folder.labelled("sweep", csv("row,mu,status,wp_um,pressure_pa", rows));
-        response(&sweep, "wp_um", None, Page::default())
+        response(&sweep, result, None, Page::default())
     };
-    let drawing = drawn("failed").unwrap();
+    let lacks = drawn("failed", "wp").unwrap_err();
+    assert!(matches!(lacks, Error::Request(said) if said.contains("no column wp: it has")));
+    let drawing = drawn("failed", "wp_um").unwrap();
     assert_eq!(drawing.to_svg().unwrap().matches("(MPa)").count(), 1);
-    let said = drawn("sound").unwrap_err().to_string();
+    let said = drawn("sound", "wp_um").unwrap_err().to_string();
     assert!(said.contains("line 3, column wp_um: ''"), "{said}");
 }

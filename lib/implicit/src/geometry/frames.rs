@@ -125,10 +125,15 @@ impl Frames {
         if let Stop::Closed { travel_m } = scene.stop
             && travel_m > gap[1] - gap[0] + tight
         {
+            // Not more than the gap by rounding.
+            let most = (1e10 * (gap[1] - gap[0]) + 1e-3).floor() / 1e4;
+            let help = match most > 0.0 {
+                true => format!("; --set clamp.travel=\"{most} um\" goes so far"),
+                false => String::new(),
+            };
             return Err(format!(
-                "the clamp is to travel {:.4} um, but the bodies meet after {:.4} um: the implicit scheme closes one gap",
-                1e6 * travel_m,
-                1e6 * (gap[1] - gap[0])
+                "the clamp is to travel {:.4} um, but the bodies meet after {most:.4} um: the implicit scheme closes one gap{help}",
+                1e6 * travel_m
             ));
         }
         Ok(Self { gap, moving })

@@ -207,7 +207,7 @@ impl Scheme for Implicit {
         let mut said: Vec<String> = [
             (
                 self.state.unsettled,
-                "the passes did not settle (viscosity, compression or torn liquid)",
+                "the passes did not settle (viscosity, compression or torn liquid): a lower speed of the clamp or a smaller integrator.cfl may help",
             ),
             (
                 self.state.air.astray,
@@ -215,7 +215,7 @@ impl Scheme for Implicit {
             ),
             (
                 above,
-                "liquid that is closed in pressed the clamp's body with more than its max_pressure",
+                "liquid that is closed in pressed the clamp's body with more than its max_pressure: a smaller integrator.cfl or a lower speed of the clamp may help",
             ),
         ]
         .into_iter()

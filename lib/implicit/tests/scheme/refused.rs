@@ -1,7 +1,7 @@
 //! Scenes that the grid cannot hold are refused.
 
 use implicit::{Implicit, Settings};
-use physics::{Boundary, Motion, Scene, VoxelBlock};
+use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
 
 use crate::plain;
 use crate::runs::block;
@@ -73,4 +73,24 @@ fn a_block_whose_last_layers_are_empty_is_taken_and_periodic_sides_are_not() {
     assert_eq!(refusal(bodies.clone(), Boundary::Symmetry), None);
     let refused = refusal(bodies, Boundary::Periodic).unwrap_or_default();
     assert!(refused.contains("periodic sides"), "{refused}");
+}
+
+/// A ridge that would enter a groove, and how far the plate may go.
+#[test]
+fn a_way_beyond_the_first_ridge_is_refused_with_the_way_to_it() {
+    let bodies = [
+        ("ridge", block(1.0, [0.0, 0.0], [1.0, 3.0]), STILL),
+        ("plate", block(1.0, [1.0, 6.0], [8.0, 7.0]), DOWN),
+    ];
+    let bodies = bodies.map(|(name, block, motion)| plain::body(name, vec![block], motion));
+    let scene = |travel_m| Scene {
+        bodies: bodies.to_vec(),
+        points: plain::fill([2.0, 2.0, 0.0], [1.0; 3], [2, 2, 1]),
+        stop: Stop::Closed { travel_m },
+        ..plain::scene(1.0, [8, 8, 1])
+    };
+    let said = |travel_m| Implicit::new(&scene(travel_m), Settings::default()).err();
+    assert_eq!(said(3.0), None);
+    let most = "one gap; --set clamp.travel=\"3000000 um\" goes so far";
+    assert!(said(5.0).is_some_and(|said| said.ends_with(most)));
 }

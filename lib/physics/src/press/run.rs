@@ -83,6 +83,14 @@ impl PressRun {
         self.closed
     }
 
+    /// Whether a stage ended so with the clamp at the end of its way, under less than the stage's pressure.
+    pub fn is_closed_below(&self, stage: &PressStage, end: &StageEnd) -> bool {
+        let less = |p: f64| end.pressure < p * (1.0 - CONTROLLED);
+        stage.kind != Press::Release
+            && end.travel_m >= self.room_m * (1.0 - ROUNDING)
+            && stage.pressure.is_some_and(less)
+    }
+
     /// Largest pressure of the programme, Pa.
     pub fn largest(&self) -> f64 {
         (self.stages.iter())
@@ -161,7 +169,11 @@ impl PressRun {
         } else if approach && self.closed {
             Some(Reason::Closed)
         } else if stage.slower.is_some_and(|least| step.speed.abs() < least) {
-            Some(Reason::Slower)
+            // A clamp that stands on wood is not slow for its liquid.
+            Some(match self.closed && stage.kind == Press::Hold {
+                true => Reason::Closed,
+                false => Reason::Slower,
+            })
         } else if self.elapsed_s >= stage.time_s * (1.0 - ROUNDING) {
             Some(Reason::Time)
         } else {
@@ -288,11 +300,18 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_clamp_ends_its_approach() {
+    fn a_closed_clamp_ends_its_approach_and_a_hold_until_it_is_slow() {
         let mut run = programme();
         assert!(run.observe(step(0.05, 1e-3, 50e-6, 0.0)));
         assert!(run.is_closed());
-        assert_eq!(run.ended().next().unwrap().1.reason, Reason::Closed);
+        assert!(run.observe(step(2.0, 0.0, 50e-6, 0.0)));
+        assert!(run.observe(step(1.0, 0.0, 50e-6, 0.0)));
+        let reasons: Vec<Reason> = run.ended().map(|(_, end)| end.reason).collect();
+        assert_eq!(reasons, [Reason::Closed, Reason::Time, Reason::Closed]);
+        assert!(
+            run.ended()
+                .all(|(stage, end)| run.is_closed_below(stage, end))
+        );
     }
 
     #[test]

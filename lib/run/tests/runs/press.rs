@@ -115,6 +115,8 @@ fn a_closed_clamp_stands_until_the_programme_is_over() {
     let hold = &summary.programme[2];
     assert_eq!((hold.ended_by, hold.end_s > 300.0), ("time", true));
     assert!((hold.travel_m / 6e-6 - 1.0).abs() < 1e-6, "{hold:?}");
+    let said = "went through its press programme and closed below its pressure in stage";
+    assert!(summary.sentence().contains(said), "{}", summary.sentence());
     assert!(summary.steps < 300 && summary.verdict.sound, "{summary:?}");
 }
 

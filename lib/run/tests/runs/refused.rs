@@ -33,7 +33,7 @@ const REFUSED: &[Refused] = &[
     (&[("travel = \"3 um\"\n", "")], &[], "travel"),
     (&[], &["grid.dimensions=2", "boundary.z=open"], "plane strain"),
     (&[("velocity = \"clamp\"\n", "")], &[], "[clamp] has nothing to move"),
-    (&[], &["body.3.box.min.1=0.5 m"], "'3' is no index of an array of 3"),
+    (&[], &["body.3.box.min.1=0.5 m"], "'3' is no index of an array of 3, which counts from 0"),
     (&[], &["body.0.box.min.3=0.5 m"], "there is no '3' to set"),
     (&[("[\"16 um\", \"10 um\"", "[\"21 um\", \"10 um\"")], &["grid.cell=1 um"], "out of the domain"),
 ];
