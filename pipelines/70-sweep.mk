@@ -1,6 +1,6 @@
 # Sweeps: a table of parameters, a row a run (docs/cluster.md).
 
-# make sweep SWEEP=table.csv [SWEEP_CASE=case.toml] [RESPONSE=ep_um]
+# make sweep SWEEP=table.csv [SWEEP_CASE=case.toml] [RESPONSE=max_depth_um]
 # Starting it again goes on where it was stopped; rows added to the table are added to the results.
 RESPONSE ?= wp_um
 .PHONY: sweep

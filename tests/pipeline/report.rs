@@ -99,7 +99,7 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
         let case = "[grid]\ncell = \"2 um\"\n";
         bench.write(&format!("{folder}/resolved.toml"), case);
     }
-    let summary = r#"{"end": "failed", "verdict": {"sound": false, "reasons": ["step 7: too <fast>"]}, "steps": 6,
+    let summary = r#"{"end": "failed", "verdict": {"sound": false, "reasons": ["step 7: too <fast>"]}, "steps": 6, "liquid_points": 12288, "points_left": 2393,
         "expected_error": {"cells_per_lumen": 6.0, "measured_with_cells": 6.0, "errors": []},
         "lumens": [{"what": "lumens at the bond", "why": "3.5 cells"}],
         "left_out": [{"what": "beyond the sides", "why": "air is closed off"}]}"#;
@@ -124,6 +124,7 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
         "<td>not ended</td>",
         "failed: wood and void look exchanged",
         "lumens at the bond: 3.5 cells",
+        "failed: 19 % of the adhesive left through open sides",
         "Beyond the sides: air is closed off: failed.",
         "<td>w.tif (synthetic)</td>",
         "of its \u{201c}experiment\u{201d}: failed, killed.",

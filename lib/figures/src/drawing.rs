@@ -128,7 +128,10 @@ impl Drawing {
     }
 
     pub(crate) fn area(&mut self, points: Vec<Point>, colour: RGBAColor) {
-        self.items.push(Item::Area(points, colour));
+        // An empty polygon stops ImageMagick.
+        if !points.is_empty() {
+            self.items.push(Item::Area(points, colour));
+        }
     }
 
     pub(crate) fn text(&mut self, text: impl Into<String>, at: Point, anchor: Anchor, size: f64) {

@@ -9,6 +9,9 @@ use crate::known::SIDES;
 const ERRORS: &str = include_str!("../../run/src/cell_error.csv");
 /// Errors that an axis has room for at least: differences far below one are no fall.
 const ROOM: f64 = 8.0;
+/// Share of the largest pressure, or of an atmosphere (Pa), below which one is what the solver leaves of zero.
+const NOTHING: f64 = 1e-9;
+const ATMOSPHERE: f64 = 101_325.0;
 /// Parameters whose largest value is more than so many times the smallest get a logarithmic axis.
 const LOGARITHMIC: f64 = 20.0;
 
@@ -24,7 +27,11 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    pub(crate) fn new(name: &str, values: Vec<f64>, error: Option<f64>) -> Self {
+    pub(crate) fn new(name: &str, mut values: Vec<f64>, error: Option<f64>) -> Self {
+        if name == "pressure_pa" {
+            let largest = values.iter().fold(ATMOSPHERE, |most, p| most.max(p.abs()));
+            (values.iter_mut().filter(|p| p.abs() < NOTHING * largest)).for_each(|p| *p = 0.0);
+        }
         let (unit, title) = match name {
             "pressure_pa" => (1e6, "pressure (MPa)".to_owned()),
             "time_s" => {
@@ -82,6 +89,17 @@ pub(crate) fn axis(name: &str, values: impl Iterator<Item = f64> + Clone) -> Axi
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Presses that had let go once had an axis of pressure with ticks of 0.000000000 alone.
+    #[test]
+    fn what_is_left_of_no_pressure_is_none() {
+        for (pressures, shown) in [([-3e-13, 2e-13], [0.0; 2]), ([1e-4, 2.5e6], [0.0, 2.5])] {
+            let outcome = Outcome::new("pressure_pa", pressures.to_vec(), None);
+            assert_eq!(outcome.values, shown);
+            let ticks = outcome.axis().ticks(300.0, true);
+            assert!(ticks.iter().any(|(_, text)| text.contains(['1', '2', '5'])));
+        }
+    }
 
     /// 7.49 and 7.40 um, known to 0.17, were once the whole of an axis.
     #[test]

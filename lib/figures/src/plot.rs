@@ -222,4 +222,12 @@ mod tests {
         let one_more = plot.with("another", Mark::Line, vec![[0.0, 0.0]]);
         assert!(one_more.draw(Page::default()).is_err());
     }
+
+    /// An empty polygon, of deviations that there are none of, kept ImageMagick from drawing the curve.
+    #[test]
+    fn a_line_without_deviations_has_no_band() {
+        let plot = Plot::new("", "x", "y").with("a", Mark::Line, vec![[0.0, 1.0], [1.0, 2.0]]);
+        let svg = plot.draw(Page::default()).unwrap().to_svg().unwrap();
+        assert!(!svg.contains("points=\"\""), "{svg}");
+    }
 }

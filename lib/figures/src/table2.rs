@@ -89,8 +89,8 @@ const NOTE: &str = "paper: the paper's specimen, not this one";
 /// The state that a run ends with.
 const FINAL: &str = "final.mpts";
 /// What the numbers are, in the table for reading.
-pub const ERRORS: &str = "with \u{b1}: extrapolated to zero cell size (first order); error: the difference of two sizes \
-    of cells, of the total at least sqrt(bottom^2 + top^2)/2 of the sides' errors";
+pub const ERRORS: &str = "with \u{b1}: extrapolated to zero cell size (first order); the error is the difference of two sizes \
+    of cells, for a side at least the mean of both sides, for the total at least sqrt(bottom^2 + top^2)/2";
 
 impl Table2 {
     /// Reads the cases, sorted by adhesive in the order of first mention. A case named as in

@@ -17,7 +17,7 @@ const BESIDE: f64 = 2.0;
 const STARVED: f64 = 0.5;
 /// Share of its open lumens from which a layer is at least half full.
 const HALF: f64 = 0.5;
-/// Share of the adhesive that is gone through open sides from which the bond line is squeezed out.
+/// Share of the adhesive that left through open sides from which the bond line is squeezed out.
 const SQUEEZED_OUT: f64 = 0.05;
 
 /// Whether there is adhesive where the adherends meet.
@@ -60,8 +60,9 @@ pub struct BondLine {
     pub half_filled_m: [f64; 3],
 }
 
-/// The bond line of `state`, which had `begun_m3` (m3) of adhesive and has these `sealed` voids.
-pub fn bond_line(state: &State, begun_m3: f64, sealed: &Sealed) -> Result<BondLine, Error> {
+/// The bond line of `state` with these `sealed` voids, of whose adhesive a share of `left` is gone through open sides:
+/// a volume does not tell, for walls take water and pressure compresses.
+pub fn bond_line(state: &State, left: f64, sealed: &Sealed) -> Result<BondLine, Error> {
     let surfaces = Datum::find(Reference::Adherend, state)?;
     let surfaces_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);
     let middle = Datum::find(Reference::Mid, state)?;
@@ -72,9 +73,7 @@ pub fn bond_line(state: &State, begun_m3: f64, sealed: &Sealed) -> Result<BondLi
         .map(|layer| layer.filled_void_fraction)
         .collect();
     let filled = near.iter().sum::<f64>() / near.len() as f64;
-    let mut volume = 0.0;
-    state.for_each_parcel(|_, parcel| volume += parcel);
-    let filling = if volume < (1.0 - SQUEEZED_OUT) * begun_m3 {
+    let filling = if left > SQUEEZED_OUT {
         Filling::SqueezedOut
     } else if filled < STARVED {
         Filling::Starved

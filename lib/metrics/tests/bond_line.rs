@@ -23,9 +23,9 @@ fn profile(state: &State, reference: Reference) -> Vec<DepthLayer> {
     depth_profile(state, &datum, &Sealed::of(state, &datum)).unwrap()
 }
 
-fn line_of(state: &State, begun_m3: f64) -> BondLine {
+fn line_of(state: &State, left: f64) -> BondLine {
     let middle = Datum::find(Reference::Mid, state).unwrap();
-    metrics::bond_line(state, begun_m3, &Sealed::of(state, &middle)).unwrap()
+    metrics::bond_line(state, left, &Sealed::of(state, &middle)).unwrap()
 }
 
 /// Faces of grooves so deep.
@@ -55,7 +55,7 @@ fn wood_is_wetted_on_its_surface_and_in_its_grooves() {
 }
 
 #[test]
-fn a_bond_line_is_starved_or_squeezed_out_by_what_is_left() {
+fn a_bond_line_is_starved_or_squeezed_out_by_what_left() {
     // Of the ten layers that count, those below the middle.
     for (filled, share, filling) in [
         (20..34, 0.6, Filling::Filled),
@@ -68,10 +68,8 @@ fn a_bond_line_is_starved_or_squeezed_out_by_what_is_left() {
         assert_eq!(line.filling, filling);
     }
     let run = Run::of(&grooved(24..41), 33, 0.0);
-    let begun: f64 = run.volume.iter().map(|&v| f64::from(v)).sum();
-    let state = run.state();
-    for (left, filling) in [(0.96, Filling::Filled), (0.94, Filling::SqueezedOut)] {
-        assert_eq!(line_of(&state, begun / left).filling, filling);
+    for (left, filling) in [(0.04, Filling::Filled), (0.06, Filling::SqueezedOut)] {
+        assert_eq!(line_of(&run.state(), left).filling, filling);
     }
 }
 

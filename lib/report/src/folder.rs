@@ -98,6 +98,13 @@ impl RunFolder {
         reached.and_then(Value::as_bool).unwrap_or(false)
     }
 
+    /// The share of its adhesive that left through open sides.
+    pub(crate) fn left(&self) -> f64 {
+        let points = ["/points_left", "/liquid_points"].map(|at| self.summary.pointer(at));
+        let [left, of] = points.map(|points| points.and_then(Value::as_f64));
+        left.unwrap_or(0.0) / of.unwrap_or(f64::INFINITY)
+    }
+
     /// What it says of air that is closed off where the specimen ends.
     pub(crate) fn beyond_sides(&self) -> Option<&str> {
         let mut left_out = self.list("/left_out").iter();

@@ -10,6 +10,8 @@ use crate::{Measured, Report, RunFolder};
 pub(crate) const PICTURES: usize = 2;
 /// Share of a value from which its error is doubted.
 const LARGE: f64 = 0.1;
+/// Share of the adhesive that left through open sides from which it is told.
+const LEFT: f64 = 0.05;
 
 /// The section.
 pub(crate) fn write(report: &Report) -> String {
@@ -117,6 +119,12 @@ fn doubts(runs: &[RunFolder]) -> String {
         }
         let doubts = run.voxel_doubts.iter().map(String::as_str);
         let doubts = doubts.chain(run.end.closed_in());
+        let left = run.left();
+        let left = (left > LEFT).then(|| {
+            let percent = 100.0 * left;
+            format!("{percent:.0} % of the adhesive left through open sides")
+        });
+        let doubts = doubts.map(str::to_owned).chain(left);
         items.extend(doubts.map(|doubt| escape(&format!("{}: {doubt}", run.label))));
     }
     let mut say = |said: &str, is: &dyn Fn(&RunFolder) -> bool| {

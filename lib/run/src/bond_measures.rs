@@ -47,7 +47,8 @@ impl Moment {
 pub(crate) struct Watch<'a> {
     bond: &'a ParticleFile,
     normal: Axis,
-    begun_m3: f64,
+    /// Points of its liquid.
+    points: u64,
     sealed: Sealed,
 }
 
@@ -90,18 +91,18 @@ impl<'a> Watch<'a> {
         Ok(Self {
             bond,
             normal: setup.normal,
-            begun_m3: setup.liquid.volume_m3,
+            points: setup.liquid.points,
             sealed: Sealed::of(&state, &middle),
         })
     }
 
-    /// What the bond has come to.
-    pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunFailure> {
+    /// What the bond has come to, `lost` points of which left through open sides.
+    pub(crate) fn look(&self, scheme: &dyn Scheme, lost: u64) -> Result<Moment, RunFailure> {
         let mut liquid = scheme.filling();
         in_file_axes(&mut liquid, self.normal);
         let displacements = scheme.displacements();
         self.measure(&liquid, &displacements, |state, middle| {
-            self.moment(state, middle)
+            self.moment(state, middle, lost)
         })
     }
 
@@ -111,10 +112,11 @@ impl<'a> Watch<'a> {
         &self,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
+        lost: u64,
     ) -> Result<Answers, RunFailure> {
         self.measure(liquid, displacements, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
-            let Moment { sides, line } = self.moment(state, middle)?;
+            let Moment { sides, line } = self.moment(state, middle, lost)?;
             Ok(Answers {
                 wp_m: sides.map(|side| side.wp_m).into(),
                 ep_m: sides.map(|side| side.ep_m).into(),
@@ -133,10 +135,11 @@ impl<'a> Watch<'a> {
         })
     }
 
-    fn moment(&self, state: &State, middle: &Datum) -> Result<Moment, metrics::Error> {
+    fn moment(&self, state: &State, middle: &Datum, lost: u64) -> Result<Moment, metrics::Error> {
+        let left = lost as f64 / self.points as f64;
         Ok(Moment {
             sides: penetration(state, middle),
-            line: bond_line(state, self.begun_m3, &self.sealed)?,
+            line: bond_line(state, left, &self.sealed)?,
         })
     }
 

@@ -36,7 +36,7 @@ pub(crate) fn conclude(
     let verdict = verdict::judge(setup, &liquid, &invariants, water, lost, follows).and(objection);
     in_file_axes(&mut liquid, setup.normal);
     let penetration = watch
-        .map(|watch| watch.look_closely(&liquid, &displacements))
+        .map(|watch| watch.look_closely(&liquid, &displacements, lost))
         .transpose()?;
     let wall = outcome.stepping.as_secs_f64();
     let work = outcome.steps_here as f64 * setup.liquid.points as f64;

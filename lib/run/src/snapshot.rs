@@ -17,6 +17,8 @@ const IDENTITY: &str = "identity";
 const PRESSURE: &str = "pressure_pa";
 /// Way of the clamp left until the bond is closed, m; that of the bond file in its header.
 const GAP: &str = "gap_m";
+/// Attribute of a state: the share of the liquid that left through open sides.
+const LEFT: &str = "left_through_open_sides";
 
 /// Whether `folder` holds the final state of the run with this identity, whole. One that is damaged
 /// is none where it is `replaceable`.
@@ -48,6 +50,8 @@ pub(crate) struct SnapshotWriter<'a> {
     bond: Option<&'a ParticleFile>,
     normal: Axis,
     initial_gap_m: Option<f64>,
+    /// Points of the liquid at first.
+    points: u64,
 }
 
 impl<'a> SnapshotWriter<'a> {
@@ -87,6 +91,7 @@ impl<'a> SnapshotWriter<'a> {
             bond,
             normal,
             initial_gap_m: setup.initial_gap_m,
+            points: setup.liquid.points,
         }
     }
 
@@ -116,6 +121,7 @@ impl<'a> SnapshotWriter<'a> {
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
         header.set_attribute(PRESSURE, clock.last.pressure_top);
+        header.set_attribute(LEFT, clock.last.lost as f64 / self.points as f64);
         if let Some(gap_m) = self.initial_gap_m {
             header.set_attribute(GAP, gap_m - clock.travel_m);
         }

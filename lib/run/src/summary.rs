@@ -144,7 +144,8 @@ pub(crate) fn text(summary: &impl Serialize) -> String {
 /// A time (s) in the unit that suits it, with `digits` behind the point.
 pub(crate) fn time(seconds: f64, digits: usize) -> String {
     match seconds {
-        s if s < 1e-2 => format!("{:.digits$} us", s * 1e6),
+        s if s < 1e-3 => format!("{:.digits$} us", s * 1e6),
+        s if s < 1.0 => format!("{:.digits$} ms", s * 1e3),
         s if s < 600.0 => format!("{s:.digits$} s"),
         s => format!("{:.digits$} min", s / 60.0),
     }

@@ -185,7 +185,8 @@ impl TimeLoop<'_> {
         self.look(&diagnostics)?;
         self.clock.row_missing = false;
         let stage = scheme.programme().map(|run| run.last_stage() + 1);
-        let moment = self.watch.map(|watch| watch.look(scheme)).transpose()?;
+        let lost = self.clock.last.lost;
+        let moment = (self.watch.map(|watch| watch.look(scheme, lost))).transpose()?;
         (self.history).row(self.setup, &self.clock, &diagnostics, stage, moment)
     }
 }

@@ -144,8 +144,12 @@ fn too_few(phases: usize, left_out: u64) -> String {
             100.0 * FEW
         ),
     };
+    let wood = match phases {
+        3 => ", or take --grey auto-wood for wood without adhesive",
+        _ => "",
+    };
     format!(
-        "it holds fewer than {number} grey values{besides}; {number} phases need {number}: name them with --labels"
+        "it holds fewer than {number} grey values{besides}; {number} phases need {number}: name them with --labels{wood}"
     )
 }
 
@@ -206,11 +210,19 @@ mod tests {
         let grey = of_counts(counts).propose(false).unwrap().grey;
         assert_eq!(phases(&grey, [3.0, 90.0, 91.0]), [0, 1, 2]);
         let mut two = of_counts(vec![1, 0, 4]);
-        assert!(two.propose(false).unwrap_err().contains("three"));
+        let said = two.propose(false).unwrap_err();
+        assert!(
+            said.contains("three") && said.contains("auto-wood"),
+            "{said}"
+        );
         two.scale.first = -128;
         assert_eq!(two.propose(true).unwrap().grey.to_string(), "wood=-127..");
         let one = of_counts(vec![0, 9]).propose(true);
-        assert!(one.unwrap_err().contains("two"));
+        let said = one.unwrap_err();
+        assert!(
+            said.contains("two") && !said.contains("auto-wood"),
+            "{said}"
+        );
     }
 
     /// One bell curve has no two phases, and what is thinner than hot pixels is none.

@@ -39,8 +39,9 @@ pub(crate) enum Figure {
         /// A run: its folder or its history.csv; may be repeated
         #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
         run: Vec<Labelled>,
-        /// The same run, by its LABEL, in cells half as large: its pressure extrapolated to zero cell size, +- the
-        /// difference, is drawn as a band; may be repeated
+        /// The same run, by its LABEL, in cells half as large. A band is drawn over the pressures of both at equal travel of
+        /// their clamps and up to those beyond the finer run by twice the difference, cut at zero and at the limit; Table 2 has
+        /// the pressures of both last steps instead, which are not at quite the same travel; may be repeated
         #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
         finer: Vec<Labelled>,
         /// Draw this pressure as a dashed line; without it, the limit that the cases of all runs have
@@ -114,7 +115,7 @@ pub(crate) enum Figure {
     /// A result of a sweep with its error, and pressure and time, against each parameter
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
-  bond-figures response sweep.csv --result ep_um --error 8% -o ep.png
+  bond-figures response sweep.csv --result wp_top_um --error 8% -o ep.png
   bond-sweep collect sweep -o - | bond-figures response - -o response.svg")]
     Response {
         /// Table of `bond-sweep collect`
@@ -124,7 +125,7 @@ pub(crate) enum Figure {
         #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
         result: String,
         /// Its error by the size of the cells, as a percentage [default: the worst of the bonds of
-        /// make for WP, EP by side and pressure, none for others]
+        /// make for WP and pressure, none for others]
         #[arg(long, value_name = "PERCENT", value_parser = share)]
         error: Option<f64>,
         #[command(flatten)]

@@ -55,7 +55,8 @@ fn press(
     let request = Request::read(case, Some(bond), &[])?;
     request.warnings().into_iter().for_each(cli::warn);
     let mode = Mode {
-        resume: true,
+        // Of a run that has not begun there is nothing to say.
+        resume: place.join(particle_file::RUN_MARK).exists(),
         overwrite: false,
         however_long,
     };

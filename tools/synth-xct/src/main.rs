@@ -124,7 +124,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 fn report(specimen: &Specimen, recipe: &Recipe) {
     let anatomy = specimen.anatomy();
     let [nx, ny, nz] = specimen.size();
-    let um = recipe.voxel * 1e6;
+    // As given: 1.7 um are 1.6999999999999997e-6 m times 1e6.
+    let um = (recipe.voxel * 1e15).round() / 1e9;
     cli::note(format_args!(
         "SYNTHETIC specimen, {nx} x {ny} x {nz} voxels of {um} um ({:.0} x {:.0} x {:.0} um), seed {}",
         nx as f64 * um,

@@ -77,7 +77,7 @@ pub(crate) struct Arguments {
     /// Sort by time, and add time, gap (travel of the clamp left until the bond is closed), depth of 95 % of the adhesive,
     /// wetted area, distance of the bond surfaces, depth to which the open lumens are half full, and state of the bond line
     /// (filled; starved: less than half of the space within two voxels of the bond surfaces is filled; squeezed-out: a
-    /// twentieth of the adhesive has left); FILE may be a run folder
+    /// twentieth of the adhesive has left through open sides, as states of runs note); FILE may be a run folder
     #[arg(long)]
     pub(crate) series: bool,
     /// Add the pressure on the body that the clamp drives (states of runs; with --finer always)

@@ -59,11 +59,12 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         if arguments.series {
             let state = input.state(arguments.normal)?;
-            let begun_m3 = files.first().unwrap_or(&rows).sides[2].volume_m3;
             let fail = |error| input.failure(&error);
             let middle = Datum::find(Reference::Mid, &state).map_err(fail)?;
             let sealed = Sealed::of(&state, &middle);
-            let line = bond_line(&state, begun_m3, &sealed).map_err(fail)?;
+            // Older states do not note what left.
+            let left = input.noted("left_through_open_sides").unwrap_or(0.0);
+            let line = bond_line(&state, left, &sealed).map_err(fail)?;
             let gap_m = input.noted("gap_m").unwrap_or(f64::NAN);
             rows.course = Some((input.time_s(), gap_m, line));
             if arguments.profile.is_some() {

@@ -62,6 +62,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let (mut segmented, inputs) = (segmented?, inputs?);
     if let Some(most) = arguments.despeckle {
         report::despeckled(&segmented.despeckle(most.into()), most);
+    } else if let Phases::Grey(_) = phases {
+        report::noise(&segmented);
     }
     if let Some(normal) = arguments.level {
         level(&mut segmented, normal, &edge, stack.name())?;

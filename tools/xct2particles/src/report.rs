@@ -6,6 +6,10 @@ use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
+/// Voxels that a piece of noise has at most.
+const SPECK: usize = 4;
+/// Pieces as small that any specimen may have.
+const FEW: usize = 5;
 
 /// The stack, what is kept of it, and the size of its voxels.
 pub(crate) fn stack(stack: &Stack, crop: &Crop, edge: &VoxelEdge) {
@@ -59,6 +63,17 @@ pub(crate) fn despeckled(found: &Despeckled, most: u16) {
         "despeckled  {} pieces of at most {most} voxels took the phase around them: {adhesive} voxels of adhesive, {wood} of wood, {void} of void",
         found.pieces
     ));
+}
+
+/// Noise that grey values brought along. Clean specimens have one such piece in 40,000 voxels at most, noisy ones one in
+/// a few hundred.
+pub(crate) fn noise(specimen: &Segmented) {
+    let [pieces, voxels] = specimen.small_pieces(SPECK);
+    if pieces > FEW + voxels / 10_000 {
+        cli::warn(format_args!(
+            "{pieces} pieces of at most {SPECK} voxels look like noise: --despeckle {SPECK} gives them the phase around them"
+        ));
+    }
 }
 
 /// How a specimen was turned.

@@ -237,6 +237,6 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
             assert_eq!(row, format!("| {noun} | {} |", names.join(", ")));
             told += 1;
         }
-        assert_eq!(told, 10);
+        assert_eq!(told, 13);
     }
 }

@@ -139,6 +139,31 @@ fn the_gap_is_the_way_left_wherever_it_is_told() {
     assert_eq!(wetted, told("wetted_area_top_um2"));
 }
 
+/// Water that the walls took once counted as liquid that had left.
+#[test]
+fn only_what_left_through_open_sides_squeezes_a_bond_line_out() {
+    let water = "[adhesive.water]\nsolids = 0.45\nuptake = \"0.2 m/s\"\ndiffusivity = \"1e-5 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]\n";
+    // The implicit scheme counts a point a voxel.
+    let changes = ["grid.points_per_direction=1"];
+    for (more, squeezed_out) in [(water, false), ("[boundary]\nz = \"open\"\n", true)] {
+        let bench = bench_of(&format!("{TABLES}{more}"));
+        let summary = bench.run("run", PLAIN, END, &changes).unwrap().unwrap();
+        let share = summary.points_left as f64 / summary.liquid_points as f64;
+        let volumes = bench.column("adhesive_volume_m3");
+        let [first, end] = [&volumes[0], &volumes[volumes.len() - 1]];
+        let [first, end]: [f64; 2] = [first, end].map(|volume| volume.parse().unwrap());
+        println!("{share:.3} left; volume {first:.3e} to {end:.3e} m3");
+        assert!(end < 0.95 * first && (share > 0.05) == squeezed_out);
+        assert_eq!(last(&bench, "bond_line") == "squeezed-out", squeezed_out);
+        let file = ParticleFile::open(bench.path("run/final.mpts")).unwrap();
+        let noted = file.header().attribute("left_through_open_sides").unwrap();
+        assert!(
+            (noted.parse::<f64>().unwrap() - share).abs() < 1e-12,
+            "{noted}"
+        );
+    }
+}
+
 #[test]
 fn a_run_that_tells_penetration_stopped_on_its_way_ends_the_same() {
     ends_the_same(&bench(), 4);

@@ -111,6 +111,19 @@ fn specks_are_taken_out_where_that_is_asked_for() {
     let both = columns("noisy.tif --despeckle 2", &["5 pieces of at most 2 voxels"]);
     assert_eq!((&both.0, both.2.as_deref()), (&clean, Some("2")));
     assert_eq!(columns("clean.tif --despeckle 2", &[]).0, clean);
+    // Grey values brought noise along without a word.
+    let speckled = |x: usize, y: usize, z: usize| match x % 4 + y % 4 + z % 4 {
+        0 => 128,
+        _ => band(y),
+    };
+    bench.write("speckled.tif", tiff([20, 30, 10], speckled));
+    let grey = "--grey wood=90..200,adhesive=201..";
+    let noise = ["of at most 4 voxels look like noise: --despeckle 4"];
+    columns(&format!("speckled.tif {grey}"), &noise);
+    for quiet in ["speckled.tif --despeckle 4", "clean.tif"] {
+        let (_, said, _) = columns(&format!("{quiet} {grey}"), &[]);
+        assert!(!said.contains("look like noise"), "{said}");
+    }
 }
 
 #[test]
