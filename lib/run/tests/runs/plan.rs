@@ -140,7 +140,7 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "both with the default Courant number",
     ];
     says(&[], &coarser, &lines);
-    let wp = "WP about 1.0 % (a small bond line), about 3.4 % (two sizes of cells, the worst of the bonds of make)";
+    let wp = "WP about 1.0 % (a small bond line), about 1.5 % (two sizes of cells, the worst of the bonds of make)";
     says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);
     assert!(!default.contains("with the default"), "{default}");
