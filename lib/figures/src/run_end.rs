@@ -97,16 +97,14 @@ impl RunEnd {
         let stages = stages.map_or(&[][..], Vec::as_slice);
         let closed = stages
             .iter()
-            .position(|stage| stage["ended_by"] == "closed");
-        let closed = closed.filter(|at| {
-            stages[at + 1..]
-                .iter()
-                .any(|next| next["kind"] != "release")
-        });
+            .position(|stage| stage["closed_below"] == true);
         let closed_in = closed.map(|at| {
             let pressure = 1e-6 * stages[at]["pressure_pa"].as_f64().unwrap_or(f64::NAN);
             let kind = stages[at]["kind"].as_str().unwrap_or_default();
-            format!("closed in stage {} ({kind}) at {pressure:.3} MPa: no later stage pressed it further", at + 1)
+            format!(
+                "closed in stage {} ({kind}) at {pressure:.3} MPa, less than that of the stage",
+                at + 1
+            )
         });
         let released = stages.last().is_some_and(|last| last["kind"] == "release");
         let held = stages.iter().rfind(|stage| stage["kind"] != "release");
@@ -275,13 +273,13 @@ mod tests {
         let mark = |held_um: f64, gap_m: f64, last: &str| {
             let mut told = summary("programme", gap_m);
             told["programme"] = serde_json::json!([
-                { "kind": "hold", "travel_m": 1e-6 * held_um, "wp_m": 7e-6, "ended_by": "closed", "pressure_pa": 1e4 },
+                { "kind": "hold", "travel_m": 1e-6 * held_um, "wp_m": 7e-6, "closed_below": true, "pressure_pa": 1e4 },
                 { "kind": last, "travel_m": 1e-5 - gap_m },
             ]);
             let end = RunEnd::of(&told);
             let released = "WP after its release, 7.00 um in total before it";
-            let closed = "closed in stage 1 (hold) at 0.010 MPa: no later stage pressed it further";
-            assert_eq!(end.closed_in(), (last != "release").then_some(closed));
+            let closed = "closed in stage 1 (hold) at 0.010 MPa, less than that of the stage";
+            assert_eq!(end.closed_in(), Some(closed));
             assert_eq!(end.released(), (last == "release").then(|| released.into()));
             end.mark()
         };

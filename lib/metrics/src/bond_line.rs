@@ -127,7 +127,8 @@ fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
                 dims: wood.bits.dims(),
             };
             for index in lattice.faces(adhesive.bits) {
-                add(middle.depth(wood.centre_m(index)).0, wood.voxel_m.powi(2));
+                let (side, _) = middle.depth(wood.centre_m(index), wood.voxel_m);
+                add(side, wood.voxel_m.powi(2));
             }
         }
         _ => {}

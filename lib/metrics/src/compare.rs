@@ -116,7 +116,7 @@ fn overlap(
     });
     let mut fractions = VolumeFractions::new(open);
     state.for_each_parcel(|mut point, v| {
-        if side.share(ours.depth(point).0) == 0.0 {
+        if side.share(ours.depth(point, voxel).0) == 0.0 {
             return;
         }
         point[n] -= parted;

@@ -134,22 +134,22 @@ impl Datum {
         }
     }
 
-    /// On which side of the bond `point` is, on both where it is on the plane between them, and its distance (m) from the zero
-    /// of that side.
-    pub fn depth(&self, point: [f64; 3]) -> (Side, f64) {
+    /// On which side of the bond `point` is, the centre of a voxel or what began as one, or on both where it is on the plane
+    /// between them, and its distance (m) from the zero of that side.
+    pub fn depth(&self, point: [f64; 3], voxel_m: f64) -> (Side, f64) {
         match self {
-            Datum::Level { normal, .. } => self.depth_of_level(point[normal.index()]),
+            Datum::Level { normal, .. } => self.depth_of_level(point[normal.index()], voxel_m),
             Datum::Tilted(plane) => {
                 let distance = plane.distance(point);
-                (Side::of(distance, plane.centre_m()), distance.abs())
+                (Side::of(distance, voxel_m), distance.abs())
             }
         }
     }
 
     /// [`Datum::depth`] of any point at this coordinate along the normal; of a tilted plane,
     /// at the centre of the bond area.
-    pub fn depth_of_level(&self, coordinate: f64) -> (Side, f64) {
-        let side = Side::of(coordinate - self.plane_m(Side::Total), coordinate);
+    pub fn depth_of_level(&self, coordinate: f64, voxel_m: f64) -> (Side, f64) {
+        let side = Side::of(coordinate - self.plane_m(Side::Total), voxel_m);
         let below = self.plane_m(Side::Bottom) - coordinate;
         let above = coordinate - self.plane_m(Side::Top);
         let beyond = match side {

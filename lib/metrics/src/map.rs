@@ -25,7 +25,7 @@ impl Map {
             moment: vec![0.0; columns],
         };
         state.for_each_parcel(|point, volume| {
-            let (on, depth) = datum.depth(point);
+            let (on, depth) = datum.depth(point, state.voxel_m);
             let volume = side.share(on) * volume;
             if volume > 0.0 {
                 let column = across.column(point);

@@ -20,11 +20,11 @@ impl Side {
     /// All sides in the order of the table.
     pub const ALL: [Side; 3] = [Side::Bottom, Side::Top, Side::Total];
 
-    /// The side of a signed height above the bond line; both where that is rounding, at a `coordinate` of so much.
-    pub(crate) fn of(height: f64, coordinate: f64) -> Side {
-        /// Rounding of a coordinate in single precision and of what is added to it, and of one at 0, m.
-        const ROUNDING: [f64; 2] = [1e-6, 1e-12];
-        if height.abs() <= ROUNDING[0] * coordinate.abs() + ROUNDING[1] {
+    /// The side of a height (m) above the plane between the sides; both on that plane.
+    pub(crate) fn of(height: f64, voxel_m: f64) -> Side {
+        /// Voxels that are rounding: positions of points have single precision.
+        const ROUNDING: f64 = 1e-3;
+        if height.abs() <= ROUNDING * voxel_m {
             Side::Total
         } else if height < 0.0 {
             Side::Bottom
@@ -33,7 +33,7 @@ impl Side {
         }
     }
 
-    /// Part of what lies on `side` that counts here: half on each side of what lies on the plane between them.
+    /// Part of what lies on `side` that counts here: to each side, half of what lies on the plane between them.
     pub(crate) fn share(self, side: Side) -> f64 {
         match (self, side) {
             (Side::Total, _) => 1.0,
@@ -81,15 +81,15 @@ pub struct Penetration {
 
 /// Penetration of the bottom, the top and in total.
 ///
-/// Voxels count at their centres; those whose centre is on the plane between the sides count half to each. The square of the total WP is the volume-weighted mean of
-/// the squares of the sides.
+/// Voxels count at their centres; those whose centre is on the plane between the sides count half to each. The square of
+/// the total WP is the volume-weighted mean of the squares of the sides.
 pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let layers = layers(state, datum);
     // Material points, millions of them, are visited again rather than listed.
     let each = |visit: &mut dyn FnMut(Sample)| match &layers {
         Some(layers) => layers.iter().copied().for_each(visit),
         None => state.for_each_parcel(|point, volume| {
-            let (side, depth) = datum.depth(point);
+            let (side, depth) = datum.depth(point, state.voxel_m);
             visit(Sample {
                 side,
                 depth,
@@ -181,7 +181,7 @@ fn layers(state: &State, datum: &Datum) -> Option<Vec<Sample>> {
     let filled = counts.filter(|(_, count)| *count > 0);
     let sample = |(layer, voxels_of_it): (usize, u64)| {
         let centre = voxels.origin_m[n] + (layer as f64 + 0.5) * voxels.voxel_m;
-        let (side, depth) = datum.depth_of_level(centre);
+        let (side, depth) = datum.depth_of_level(centre, voxels.voxel_m);
         Sample {
             side,
             depth,

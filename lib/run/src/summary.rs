@@ -112,7 +112,6 @@ pub struct PressedStage {
     /// Pressure on the clamp's body then, Pa.
     pub pressure_pa: f64,
     /// Whether the bond had closed then, under less than the stage's pressure.
-    #[serde(skip)]
     pub closed_below: bool,
     /// Total WP then, m, where the history tells it.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -17,3 +17,4 @@ pub(crate) use mesh::{Face, Mesh, Way, others};
 pub(crate) use passages::narrowness;
 pub(crate) use region::Region;
 pub(crate) use rows::{DRIFT, RowKind, Rows};
+pub(crate) use voxels::STEPS_SEEN;

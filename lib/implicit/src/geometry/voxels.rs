@@ -12,6 +12,10 @@ use super::rows::RowKind;
 /// u ~ r^(2/3) sin(2 theta/3); with these factors one alone adds no c r^(-2/3) sin(2 theta/3) far from it.
 const REENTRANT: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 
+/// Cells along a wall, rounded up, within which [`Mesh::beside_steps`] sees a step: what it says near the end of a mesh
+/// is not what it says in a longer one.
+pub(crate) const STEPS_SEEN: usize = 2;
+
 /// A voxel: its cell and its place in it.
 type At = (usize, [usize; 3]);
 

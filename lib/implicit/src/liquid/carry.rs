@@ -6,11 +6,7 @@ use std::ops::Range;
 use physics::Boundary;
 use rayon::prelude::*;
 
-use crate::geometry::{Mesh, Region, RowKind, Rows};
-
-/// Cells that friction looks along walls for steps: what it finds from a row nearer to the end of a mesh is not what it finds in
-/// a longer one.
-const SEEN: usize = 2;
+use crate::geometry::{Mesh, Region, RowKind, Rows, STEPS_SEEN};
 
 /// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
@@ -62,8 +58,8 @@ impl Kept {
     pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
         let in_rows = |mesh: &Mesh, row: usize| {
             let range = &mesh.range;
-            (range.start == 0 || row >= range.start + SEEN)
-                && (range.end == mesh.rows().len() || row + SEEN < range.end)
+            (range.start == 0 || row >= range.start + STEPS_SEEN)
+                && (range.end == mesh.rows().len() || row + STEPS_SEEN < range.end)
         };
         let inner = old.region.inner(old.periodic());
         let old_cell = |pore: usize| {

@@ -8,6 +8,7 @@ mod runs;
 
 mod air;
 mod bond;
+mod fills;
 mod flows;
 mod menisci;
 mod opens;

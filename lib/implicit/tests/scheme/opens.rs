@@ -90,7 +90,7 @@ fn liquid_of_a_gap_that_has_closed_has_velocities() {
     assert!(!liquid.position.iter().any(low));
 }
 
-/// Liquid that leaves counts in points of the scene, four of which are in a cell of one voxel here.
+/// Liquid that leaves counts in points of the scene, eight of which are in a cell of one voxel here.
 #[test]
 fn liquid_that_leaves_counts_in_points() {
     let mut scene = scene(4.0, [16, 0], 1e9);

@@ -143,11 +143,9 @@ fn the_gap_is_the_way_left_wherever_it_is_told() {
 #[test]
 fn only_what_left_through_open_sides_squeezes_a_bond_line_out() {
     let water = "[adhesive.water]\nsolids = 0.45\nuptake = \"0.2 m/s\"\ndiffusivity = \"1e-5 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]\n";
-    // The implicit scheme counts a point a voxel.
-    let changes = ["grid.points_per_direction=1"];
     for (more, squeezed_out) in [(water, false), ("[boundary]\nz = \"open\"\n", true)] {
         let bench = bench_of(&format!("{TABLES}{more}"));
-        let summary = bench.run("run", PLAIN, END, &changes).unwrap().unwrap();
+        let summary = bench.run("run", PLAIN, END, &[]).unwrap().unwrap();
         let share = summary.points_left as f64 / summary.liquid_points as f64;
         let volumes = bench.column("adhesive_volume_m3");
         let [first, end] = [&volumes[0], &volumes[volumes.len() - 1]];
