@@ -1,7 +1,7 @@
 //! Which pores that are not full make a pocket, and the air in them.
 
 use super::law::{Gas, Tangent};
-use crate::geometry::{Mesh, Way};
+use crate::geometry::Mesh;
 
 /// Connected pores that are not full and that nothing connects with the outside.
 #[derive(Clone, Debug)]
@@ -57,19 +57,10 @@ impl Air {
             if found[first] || full(first) {
                 continue;
             }
-            let (mut pores, mut next) = (vec![first as u32], 0);
-            let (mut open, mut wet) = (false, false);
-            found[first] = true;
-            while let Some(&pore) = pores.get(next) {
-                next += 1;
-                open |= reaches_out(pore as usize);
-                for Way { beside, .. } in mesh.ways(pore as usize) {
-                    wet |= has_pressure(beside);
-                    if !full(beside) && !std::mem::replace(&mut found[beside], true) {
-                        pores.push(beside as u32);
-                    }
-                }
-            }
+            let pores = mesh.connected(first, &|pore| !full(pore), &mut found);
+            let each = || pores.iter().map(|&pore| pore as usize);
+            let open = each().any(reaches_out);
+            let wet = each().any(|pore| mesh.ways(pore).any(|way| has_pressure(way.beside)));
             air.add(pores, open, wet, void);
         }
         air

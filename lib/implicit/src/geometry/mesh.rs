@@ -306,6 +306,26 @@ impl Mesh {
         })
     }
 
+    /// The connected pores around `first` that are `within`, which joins those `found`.
+    pub(crate) fn connected(
+        &self,
+        first: usize,
+        within: &impl Fn(usize) -> bool,
+        found: &mut [bool],
+    ) -> Vec<u32> {
+        let (mut pores, mut next) = (vec![first as u32], 0);
+        found[first] = true;
+        while let Some(&pore) = pores.get(next) {
+            next += 1;
+            for Way { beside, .. } in self.ways(pore as usize) {
+                if within(beside) && !std::mem::replace(&mut found[beside], true) {
+                    pores.push(beside as u32);
+                }
+            }
+        }
+        pores
+    }
+
     /// Cell of a pore.
     pub(crate) fn cell(&self, pore: usize) -> usize {
         self.pores[pore].cell as usize

@@ -4,7 +4,8 @@ use physics::StepLimit;
 
 use super::Implicit;
 use super::drive::Hold;
-use super::solve::{Middle, Solved};
+use super::middle::Middle;
+use super::solve::Solved;
 use crate::settings::MISSED;
 use crate::system::{Drive, Flow, STILL};
 

@@ -8,6 +8,7 @@ mod exchange;
 mod failure;
 mod fit;
 mod follow;
+mod middle;
 mod output;
 mod scheme;
 mod setup;

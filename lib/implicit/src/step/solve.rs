@@ -6,41 +6,13 @@ use std::time::Instant;
 use super::Implicit;
 use super::compression::Compression;
 use super::exchange::Exchange;
+use super::middle::Middle;
 use crate::air::Air;
 use crate::clock::{Clock, Stage};
-use crate::liquid::transport;
 use crate::system::{
-    Drive, FULL, Flow, FlowField, PASSES, Problem, Search, Unknowns, Viscosities, forces, halves,
-    masses, solve, stiffnesses,
+    Drive, Flow, FlowField, PASSES, Problem, Search, Unknowns, Viscosities, forces, solve,
+    stiffnesses,
 };
-
-/// The liquid in the middle of a step, and what all solutions have in common that begin there.
-pub(super) struct Middle {
-    dt: f64,
-    /// Closing speed that puts the rows there, cells/s, and the height of the gap at the end of the step by it, cells.
-    pub(super) closing: f64,
-    end: f64,
-    /// Which pores are full at its start.
-    full: Vec<bool>,
-    /// What pores are filled to.
-    fractions: Vec<f64>,
-    /// Liquid in the halves of each face, and its volume.
-    halves: Vec<[f64; 2]>,
-    masses: Vec<f64>,
-    /// Factor of the viscosity by cure.
-    viscosity: f64,
-    /// Of a liquid that loses water: what it loses.
-    lost: Option<Exchange>,
-}
-
-impl Middle {
-    /// Whether more pores have a pressure than in `other`.
-    pub(super) fn meets_more(&self, other: &Self) -> bool {
-        let both = self.fractions.iter().zip(&other.fractions);
-        both.into_iter()
-            .any(|(&here, &there)| here == 1.0 && there < 1.0)
-    }
-}
 
 /// A step that was solved.
 pub(super) struct Solved {
@@ -59,94 +31,6 @@ pub(super) struct Solved {
 }
 
 impl Implicit {
-    /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
-    /// that the clamp is asked for.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
-        let asked = self.state.drive.speed / self.setup.units.cell_m;
-        let closing = flow.map_or(asked, |flow| flow.speed);
-        let full: Vec<bool> = (self.state.volumes.iter().enumerate())
-            .map(|(pore, volume)| *volume >= FULL * self.mesh.volume_at(pore, self.height))
-            .collect();
-        let closes = self.setup.lattice.moving.is_some();
-        if closes {
-            self.mesh.set_height(self.middle_height(dt, closing));
-        }
-        let fractions = self.filled(dt, &full, flow);
-        let begun = Instant::now();
-        if closes {
-            let channels = self.setup.channels(&self.mesh);
-            self.links.measure(&channels, &fractions);
-        }
-        self.clock.add(Stage::Geometry, begun);
-        let begun = Instant::now();
-        let halves = halves(&self.mesh, &fractions);
-        let masses = masses(&self.mesh, &halves);
-        self.clock.add(Stage::Assembly, begun);
-        let cure = self.setup.liquid.cure.as_ref();
-        Middle {
-            dt,
-            closing,
-            end: self.end_height(dt, closing),
-            full,
-            fractions,
-            halves,
-            masses,
-            viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
-            lost: None,
-        }
-    }
-
-    /// Finds what liquid loses in a `middle` that is solved.
-    pub(super) fn dry(&mut self, middle: &mut Middle) -> Result<(), String> {
-        let begun = Instant::now();
-        middle.lost = self.exchange(middle.dt, &middle.fractions)?;
-        if middle.lost.is_some() {
-            self.clock.add(Stage::Water, begun);
-        }
-        Ok(())
-    }
-
-    /// What pores are filled to in the middle of a step of `dt` (s), those `full` at its start and others, by a `flow` or the last.
-    fn filled(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
-        let begun = Instant::now();
-        let (state, mesh) = (&self.state, &self.mesh);
-        let velocity = &flow.unwrap_or(&state.flow).velocity;
-        let moved = match state.steps {
-            0 => state.volumes.clone(),
-            _ => {
-                let liquid = [&state.volumes[..], &[]];
-                transport(mesh, liquid, full, &self.capacities(), velocity, 0.5 * dt).volumes
-            }
-        };
-        self.clock.add(Stage::Transport, begun);
-        let fraction = |(pore, volume): (usize, f64)| match volume / mesh.volume(pore) {
-            _ if full[pore] => 1.0,
-            then if then >= FULL => 1.0,
-            then => then,
-        };
-        moved.into_iter().enumerate().map(fraction).collect()
-    }
-
-    /// Height of the gap in the middle of a step of `dt` (s) at a `closing` speed (cells/s), cells.
-    pub(super) fn middle_height(&self, dt: f64, closing: f64) -> f64 {
-        0.5 * (self.height + self.end_height(dt, closing))
-    }
-
-    /// The same at its end.
-    fn end_height(&self, dt: f64, closing: f64) -> f64 {
-        (self.height - dt * closing).max(0.0)
-    }
-
-    /// What each pore can hold: without end beyond open sides.
-    pub(super) fn capacities(&self) -> Vec<f64> {
-        let mesh = &self.mesh;
-        let capacity = |pore: usize| match mesh.is_beyond(mesh.cell(pore)) {
-            true => f64::INFINITY,
-            false => mesh.volume(pore),
-        };
-        (0..mesh.pores.len()).map(capacity).collect()
-    }
-
     /// Solves with the body that closes the gap driven so, in passes: until viscosity, compression, air and torn pores are
     /// those of the flow.
     pub(super) fn solve_driven(
