@@ -66,7 +66,7 @@ impl Implicit {
         let near = (MISSED * left).max(STILL);
         if reach > left + near {
             let dt = solved.dt;
-            let mut middle = self.middle(dt, Some(&solved.flow));
+            let mut middle = self.middle(dt, Some(&solved.flow), &[]);
             self.dry(&mut middle)?;
             solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
         }
@@ -94,19 +94,21 @@ impl Implicit {
             Some(_) => dt,
             None => 0.5 * dt,
         });
-        let mut middle = self.middle(dt, None);
+        let mut middle = self.middle(dt, None, &[]);
         self.dry(&mut middle)?;
         for _ in 1..SOLVES {
             let solved = self.solve_middle(&middle, guess)?;
             let [assumed, height] = self.heights(&middle, &solved, dt);
             let is_off = is_off(assumed, height);
-            if !is_off && height >= (1.0 - MISSED) * assumed {
+            let overfills = self.overfills(&middle, &solved.flow);
+            if !overfills && !is_off && height >= (1.0 - MISSED) * assumed {
                 return Ok(solved);
             }
             // A clamp that goes faster may meet liquid that it would not have met; one that goes slower leaves none that
             // it met, or it would go to and fro.
-            let other = self.middle(dt, Some(&solved.flow));
+            let other = self.middle(dt, Some(&solved.flow), &middle.full);
             let stays = match height < assumed {
+                _ if overfills => false,
                 true => !is_off && !other.meets_more(&middle),
                 false => middle.meets_more(&other),
             };

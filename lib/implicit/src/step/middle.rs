@@ -6,6 +6,7 @@ use super::Implicit;
 use super::exchange::Exchange;
 use crate::clock::Stage;
 use crate::liquid::transport;
+use crate::settings::MISSED;
 use crate::system::{FULL, Flow, halves, masses};
 
 /// The liquid in the middle of a step, and what all solutions have in common that begin there.
@@ -38,18 +39,24 @@ impl Middle {
 
 impl Implicit {
     /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
-    /// that the clamp is asked for.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
+    /// that the clamp is asked for. Pores that were full `before`, in another middle of it, stay so.
+    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> Middle {
         let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
         let mut full: Vec<bool> = (self.state.volumes.iter().enumerate())
             .map(|(pore, volume)| *volume >= FULL * self.mesh.volume_at(pore, self.height))
             .collect();
+        for (full, before) in full.iter_mut().zip(before) {
+            *full |= before;
+        }
         let closes = self.setup.lattice.moving.is_some();
         if closes {
             self.mesh.set_height(self.middle_height(dt, closing));
         }
-        self.fill_voids(dt, &mut full, flow.unwrap_or(&self.state.flow));
+        let end = self.end_height(dt, closing);
+        if self.setup.gas.is_none() {
+            self.fill_voids(dt, end, &mut full, flow.unwrap_or(&self.state.flow));
+        }
         let fractions = self.filled(dt, &full, flow);
         let begun = Instant::now();
         if closes {
@@ -65,7 +72,7 @@ impl Implicit {
         Middle {
             dt,
             closing,
-            end: self.end_height(dt, closing),
+            end,
             full,
             fractions,
             halves,
@@ -85,37 +92,34 @@ impl Implicit {
         Ok(())
     }
 
-    /// Counts as `full` the pores of each void that a `flow` would fill in a step of `dt` (s): their balance then takes in no more
-    /// than there is room for. The rest of what flowed there would have to leave again in the steps after, at a pressure of its own.
-    fn fill_voids(&self, dt: f64, full: &mut [bool], flow: &Flow) {
-        if self.setup.gas.is_some() {
-            return;
-        }
+    /// Counts as `full` the pores of each void that a `flow` would fill in a step of `dt` (s), at the end of which the gap has a height
+    /// `end`: their balance then takes in no more than there is room for. The rest of what flowed there would have to leave again
+    /// in the steps after, at a pressure of its own. Returns that rest, over all that flows into voids.
+    fn fill_voids(&self, dt: f64, end: f64, full: &mut [bool], flow: &Flow) -> f64 {
         let (mesh, volumes) = (&self.mesh, &self.state.volumes);
-        let capacities = self.capacities();
         let mut found = full.to_vec();
+        let (mut rest, mut all) = (0.0, f64::MIN_POSITIVE);
         for first in 0..full.len() {
             if found[first] {
                 continue;
             }
             let void = mesh.connected(first, &|pore| !full[pore], &mut found);
-            let pores = || void.iter().map(|&pore| pore as usize);
-            let room: f64 = pores().map(|pore| capacities[pore] - volumes[pore]).sum();
-            let inflow = |pore: usize| -> f64 {
-                let ways = mesh.ways(pore).filter(|way| full[way.beside]);
-                let inflow = ways.map(|way| {
-                    let inflow = -way.sign() * mesh.area(way.face) * flow.velocity[way.face] * dt;
-                    match inflow > 0.0 {
-                        true => inflow,
-                        false => inflow * volumes[pore] / capacities[pore],
-                    }
-                });
-                inflow.sum()
-            };
-            if pores().map(inflow).sum::<f64>() >= room {
-                pores().for_each(|pore| full[pore] = true);
+            let (mut inflow, mut room) = (0.0, 0.0);
+            for pore in void.iter().map(|&pore| pore as usize) {
+                let (volume, capacity) = (volumes[pore], self.capacity(pore, end));
+                room += capacity - volume;
+                for way in mesh.ways(pore).filter(|way| full[way.beside]) {
+                    let out = way.sign() * mesh.area(way.face) * flow.velocity[way.face] * dt;
+                    inflow -= out.min(out * volume / capacity);
+                }
+            }
+            all += inflow.max(0.0);
+            if inflow > room {
+                rest += inflow - room;
+                void.iter().for_each(|&pore| full[pore as usize] = true);
             }
         }
+        rest / all
     }
 
     /// What pores are filled to in the middle of a step of `dt` (s), those `full` at its start and others, by a `flow` or the last.
@@ -149,13 +153,26 @@ impl Implicit {
         (self.height - dt * closing).max(0.0)
     }
 
-    /// What each pore can hold: without end beyond open sides.
+    /// What each pore can hold now.
     pub(super) fn capacities(&self) -> Vec<f64> {
-        let mesh = &self.mesh;
-        let capacity = |pore: usize| match mesh.is_beyond(mesh.cell(pore)) {
+        let height = self.mesh.rows().height;
+        let pores = 0..self.mesh.pores.len();
+        pores.map(|pore| self.capacity(pore, height)).collect()
+    }
+
+    /// What a pore can hold at a height of the gap: without end beyond open sides.
+    fn capacity(&self, pore: usize, height: f64) -> f64 {
+        match self.mesh.is_beyond(self.mesh.cell(pore)) {
             true => f64::INFINITY,
-            false => mesh.volume(pore),
-        };
-        (0..mesh.pores.len()).map(capacity).collect()
+            false => self.mesh.volume_at(pore, height),
+        }
+    }
+
+    /// Whether a flow that was solved in a `middle` brings into voids more than they have room for.
+    pub(super) fn overfills(&self, middle: &Middle, flow: &Flow) -> bool {
+        self.setup.gas.is_none() && {
+            let end = self.end_height(middle.dt, flow.speed);
+            self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > 10.0 * MISSED
+        }
     }
 }
