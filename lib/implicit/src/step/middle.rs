@@ -8,8 +8,8 @@ use crate::clock::Stage;
 use crate::liquid::transport;
 use crate::system::{FULL, Flow, halves, masses};
 
-/// Part of what flows into voids that they may have no room for: with less, most steps of wood are solved twice; results hardly
-/// depend on it from 0.01 to 0.1.
+/// Part of what flows into voids that they may have no room for: steps of wood with many lumens stay below it and are solved
+/// once; results hardly depend on it up to 0.1.
 const OVERFILLED: f64 = 0.03;
 
 /// The liquid in the middle of a step, and what all solutions have in common that begin there.
@@ -42,7 +42,7 @@ impl Middle {
 
 impl Implicit {
     /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
-    /// that the clamp is asked for. Pores that were full `before`, in another middle of it, stay so.
+    /// that the clamp is asked for. Voids that a `flow` would fill are full, as are pores that were so `before`, in another middle of the step.
     pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> Middle {
         let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
@@ -57,8 +57,8 @@ impl Implicit {
             self.mesh.set_height(self.middle_height(dt, closing));
         }
         let end = self.end_height(dt, closing);
-        if self.setup.gas.is_none() {
-            self.fill_voids(dt, end, &mut full, flow.unwrap_or(&self.state.flow));
+        if let Some(flow) = flow.filter(|_| self.setup.gas.is_none()) {
+            self.fill_voids(dt, end, &mut full, flow);
         }
         let fractions = self.filled(dt, &full, flow);
         let begun = Instant::now();
@@ -95,9 +95,10 @@ impl Implicit {
         Ok(())
     }
 
-    /// Counts as `full` the pores of each void that a `flow` would fill in a step of `dt` (s), at the end of which the gap has a height
-    /// `end`: their balance then takes in no more than there is room for. The rest of what flowed there would have to leave again
-    /// in the steps after, at a pressure of its own. Returns that rest, over all that flows into voids.
+    /// Counts as `full` the pores of each void, connected pores that are not, that the `flow` found for a step of `dt` (s) would fill:
+    /// their balance then takes in no more than there is room for at the gap's height `end`. The rest would have to leave again in
+    /// the steps after, at a pressure of its own. Returns that rest, over all that flows into voids. No flow but that of the step
+    /// itself says what fills: a void that is full by another may have to be sucked full.
     fn fill_voids(&self, dt: f64, end: f64, full: &mut [bool], flow: &Flow) -> f64 {
         let (mesh, volumes) = (&self.mesh, &self.state.volumes);
         let mut found = full.to_vec();
