@@ -61,7 +61,7 @@ fn broken_names_are_found() {
 }
 
 #[test]
-fn the_book_has_every_document() {
+fn the_book_has_every_document_and_pages_of_results_are_filled_in() {
     let docs = root().join("docs");
     let chapters = std::fs::read_to_string(docs.join("SUMMARY.md")).unwrap();
     for folder in ["", "results/", "decisions/"] {
@@ -70,6 +70,12 @@ fn the_book_has_every_document() {
             let is_chapter = name.ends_with(".md") && name != "SUMMARY.md";
             let listed = chapters.contains(&format!("]({folder}{name})"));
             assert!(!is_chapter || listed, "{folder}{name}");
+            if is_chapter && folder == "results/" {
+                let text = std::fs::read_to_string(docs.join(folder).join(&name)).unwrap();
+                let mut words = text.split(|c| !matches!(c, '{' | '}' | '_' | 'a'..='z'));
+                let unfilled = words.find(|word| word.starts_with('{') && word.ends_with('}'));
+                assert_eq!(unfilled, None, "{name}");
+            }
         }
     }
 }

@@ -41,6 +41,7 @@ a.b,a.b;1,2 | two columns 'a.b' | table.csv
 a.b\tc.d;1 | is no column | separated by commas
 a.b,c.d;1,2;1 | row 2 has 1 cells | stands in quotes
 a.b,c.d;,;, | no row | below its header
+a.b | no row | below its header
 specimen.size;8x8x8 | row 1: its specimen: | synth-xct:
 case;absent | row 1 | absent.toml
 viscosity;1 | 'viscosity' | is no column";

@@ -13,6 +13,7 @@ use studies::verification::{Scene, methods, piston, scenes, slit};
 
 macro_rules! groups {
     ($($name:ident)*) => {
+        const GROUPS: &[&str] = &[$(stringify!($name)),*];
         $(#[test]
         fn $name() {
             check(stringify!($name));
@@ -30,6 +31,8 @@ groups! {
 fn check(group: &str) {
     let heading = format!("[{group}]");
     let table = include_str!("scenes.txt").lines();
+    let headings = table.clone().filter(|line| line.starts_with('['));
+    assert!(headings.eq(GROUPS.iter().map(|name| format!("[{name}]"))));
     let lines = table.skip_while(|line| *line != heading).skip(1);
     let lines = lines.take_while(|line| !line.starts_with('['));
     let mut count = 0;

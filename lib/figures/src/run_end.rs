@@ -305,6 +305,12 @@ mod tests {
     }
 
     #[test]
+    fn times_are_rounded_up_to_a_digit() {
+        let rounded = [2.26e-4, 9.1e-4, 0.03, 900.1].map(time);
+        assert_eq!(rounded, ["300 us", "1000 us", "30 ms", "1000 s"]);
+    }
+
+    #[test]
     fn only_files_in_run_folders_are_marked() {
         let folder = tempfile::tempdir().unwrap();
         let write =

@@ -248,5 +248,8 @@ mod tests {
         fs::remove_file(folder.place(HISTORY)).unwrap();
         let said = History::resume(&folder, extent).err().unwrap().to_string();
         assert!(said.contains("is missing"), "{said}");
+        // 314e630 went on and ended well, without a history.
+        let said = history.sync().unwrap_err().to_string();
+        assert!(said.contains("it was removed"), "{said}");
     }
 }

@@ -43,17 +43,6 @@ fn the_stack_reads_back_with_its_voxel_size_and_only_the_three_labels() {
 }
 
 #[test]
-fn the_same_arguments_give_the_same_bytes_for_any_number_of_threads() {
-    let bench = bench();
-    let (one, _) = grow(&bench, "one.tif", "--threads 1");
-    let (two, _) = grow(&bench, "two.tif", "--threads 2");
-    assert!(one == two);
-    let piped = bench.run(&format!("{SMALL} -q -o -")).done();
-    assert!(piped.stdout == one);
-    assert_eq!(piped.said, "");
-}
-
-#[test]
 fn the_stack_names_the_grain_angle_that_was_asked_for() {
     let bench = bench();
     let (bytes, _) = grow(&bench, "a.tif", "--grain-angle 10deg");

@@ -239,11 +239,15 @@ fn what_came_after_the_checkpoint_goes() {
     bench.write("run/snapshots/0009.mpts", "theirs");
     refused(&bench, RESUME, "not a file that a run wrote");
     let first = bench.bytes("run/snapshots/0000.mpts");
-    bench.write("run/snapshots/0009.mpts", &first);
+    for name in ["0009.mpts", "12345.mpts", "77.mpts"] {
+        bench.write(&format!("run/snapshots/{name}"), &first);
+    }
     let seen = || {
         // At the first step of the continued run.
         assert!(!bench.path("run/summary.json").exists());
-        assert!(!bench.path("run/snapshots/0009.mpts").exists());
+        let kept = ["0009.mpts", "12345.mpts", "77.mpts", "0000.mpts"]
+            .map(|name| bench.path("run/snapshots").join(name).exists());
+        assert_eq!(kept, [false, false, true, true]);
         assert!(bench.bytes("run/snapshots/0000.mpts") == first);
         false
     };

@@ -79,3 +79,11 @@ fn named(word: &str) -> Vec<(&'static str, Method)> {
         label => plain(&[label]),
     }
 }
+
+#[test]
+fn no_trial_is_there_twice() {
+    let all = trials();
+    let name = |t: &Trial| (t.varied, t.value.clone(), t.method.label.clone());
+    let names: std::collections::HashSet<_> = all.iter().map(name).collect();
+    assert_eq!(names.len(), all.len());
+}

@@ -43,3 +43,11 @@ pub(super) fn all(double: &Path) -> Vec<Setting> {
         Values::all(words).into_iter().map(setting).collect()
     })
 }
+
+#[test]
+fn no_setting_is_there_twice() {
+    let all = all(Path::new("double"));
+    let name = |s: &Setting| (s.method.label.clone(), s.cells);
+    let names: std::collections::HashSet<_> = all.iter().map(name).collect();
+    assert_eq!(names.len(), all.len());
+}

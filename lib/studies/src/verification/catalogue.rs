@@ -124,12 +124,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_unique_and_series_known_and_every_scene_has_methods() {
+    fn names_are_unique_series_known_and_every_scene_has_methods_and_goal_scenes() {
         let entries = all();
         let names: std::collections::HashSet<_> = entries.iter().map(|(s, _)| &s.name).collect();
         assert_eq!(names.len(), entries.len());
         let series = Scene::resolution("channel-n6-off0.25");
         assert_eq!(series, ("channel-off0.25".into(), Some(6)));
         assert!(entries.iter().all(|(_, methods)| !methods.is_empty()));
+        for goal in crate::verification::goals::goals() {
+            let about = |(scene, methods): &(Scene, Vec<Method>)| {
+                methods.iter().any(|m| goal.is_about(&scene.name, &m.label))
+            };
+            assert!(entries.iter().any(about), "{}", goal.cases);
+        }
     }
 }
