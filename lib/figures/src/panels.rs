@@ -171,7 +171,9 @@ impl Panels {
             for (i, sheet) in row.iter().enumerate() {
                 let size = size(sheet);
                 let left = i as f64 * column + layout.left + 0.5 * (inner - size[0]);
-                frames.push(Frame::new([left, top + above], size));
+                // On one floor: the fixed adherend stays in place where the clamp has shortened a scene.
+                let top = top + above + tallest - size[1];
+                frames.push(Frame::new([left, top], size));
             }
             top += above + tallest + layout.below;
         }
@@ -197,4 +199,29 @@ impl Panels {
 
 fn caption_height([name, detail]: &[Vec<String>; 2]) -> f64 {
     LINE * (name.len() as f64 * NORMAL + detail.len() as f64 * SMALL) + 10.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene that the clamp has shortened: what is fixed lies below.
+    #[test]
+    fn panels_of_a_row_stand_on_one_floor() {
+        let sheets = [[1.0, 2.0], [1.0, 1.5]].map(|edges| Sheet::new(edges, "", None));
+        let layout = Layout {
+            top: 0.0,
+            longest: 100.0,
+            left: 0.0,
+            below: 0.0,
+            right: 0.0,
+        };
+        let panels = Panels::in_columns(&sheets, layout, 2, 50.0, 0.0);
+        let floors = panels.frames.iter().map(|frame| frame.top + frame.height);
+        assert!(
+            floors
+                .clone()
+                .all(|floor| Some(floor) == floors.clone().next())
+        );
+    }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use particle_file::ParticleFile;
 
 use super::*;
+use crate::failure::refused;
 
 /// Reads the run folder's checkpoint, if there is one; `changed` says what of the case is not as it was.
 /// Errors: a checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
@@ -26,7 +27,7 @@ pub(crate) fn read(
     let written = header.attribute(FORMAT).is_some();
     if written && header.attribute(IDENTITY) != Some(&origin.identity) {
         let another = "it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew";
-        return Err(bad(another.to_owned() + &changed()));
+        return refused(format!("{}: {another}{}", path.display(), changed()));
     }
     another_build(header, origin).map_or(Ok(()), |said| Err(bad(said)))?;
     content(&file).map(Some).map_err(bad)

@@ -263,7 +263,7 @@ fn a_checkpoint_of_another_case_or_damaged_is_refused_or_replaced() {
     let other = ["adhesive.viscosity=2 Pa s"];
     let why = "(adhesive.viscosity is \"2 Pa s\", was ";
     match bench.run("run", RESUME, END, &other) {
-        Err(RunFailure::Data(said)) => has(&said, &["another case", why]),
+        Err(RunFailure::Usage(said)) => has(&said, &["another case", why]),
         ended => panic!("{ended:?}"),
     }
     assert!(bench.everything() == before);
