@@ -13,7 +13,7 @@ use crate::{Direction, Error, Labelled, Views, Wood};
 const LAST: f64 = 2.0;
 
 /// The states of a run in three dimensions as an animated PNG that repeats itself, at `rate` frames a second: one
-/// frame each, all of one box, seen from one place, with the time of each.
+/// frame each, all of one box, seen from one place, with the time of each. Says `on_frame` how many are drawn.
 ///
 /// # Errors
 /// What [`Views::read`] and [`crate::Drawing::to_png`] say; [`Error::Draw`] where frames come out of different sizes.
@@ -23,6 +23,7 @@ pub fn movie(
     from: Direction,
     page: Page,
     rate: f64,
+    mut on_frame: impl FnMut(usize),
 ) -> Result<Vec<u8>, Error> {
     let corners_m = box_of(states)?;
     let frame = |state| {
@@ -40,6 +41,7 @@ pub fn movie(
     let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(&first).map_err(failed)?;
     for (i, state) in states.iter().enumerate().skip(1) {
+        on_frame(i);
         let (pixels, of) = frame(state)?;
         if of != size {
             return Err(Error::Draw("the frames differ in size".into()));

@@ -7,7 +7,7 @@ mod values;
 
 use std::process::ExitCode;
 
-use cli::{Failure, Output, Record};
+use cli::{Failure, Output, Progress, Record};
 use figures::{
     Cut, Drawing, Error, Labelled, Page, Slices, Table2, Views, closing, penetrations, pores,
     response, setup, shear_rates, wp_maps,
@@ -131,7 +131,14 @@ fn movie(a: &MovieArgs) -> Result<(), Failure> {
     let inputs = Inputs::new(named.collect())?;
     inputs.keep_from([&a.output])?;
     let (wood, from) = (a.look.wood, a.look.from());
-    let png = figures::movie(inputs.files(), wood, from, a.print.page(), a.rate);
+    let (count, mut progress) = (inputs.files().len(), Progress::new("drawing the movie"));
+    let on_frame = |done| {
+        let end = ("done, {} left", done as f64 / count as f64);
+        progress.update(&[end], || format!("frame {done} of {count}"));
+    };
+    let page = a.print.page();
+    let png = figures::movie(inputs.files(), wood, from, page, a.rate, on_frame);
+    progress.finish();
     let png = png.map_err(failure)?;
     (a.output).write_with_record(&inputs.record()?, |out| out.write_all(&png))
 }
