@@ -217,11 +217,7 @@ mod tests {
             right: 0.0,
         };
         let panels = Panels::in_columns(&sheets, layout, 2, 50.0, 0.0);
-        let floors = panels.frames.iter().map(|frame| frame.top + frame.height);
-        assert!(
-            floors
-                .clone()
-                .all(|floor| Some(floor) == floors.clone().next())
-        );
+        let [a, b] = [0, 1].map(|i| panels.frames[i].top + panels.frames[i].height);
+        assert_eq!(a, b);
     }
 }

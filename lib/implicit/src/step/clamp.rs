@@ -66,7 +66,7 @@ impl Implicit {
         let near = (MISSED * left).max(STILL);
         if reach > left + near {
             let dt = solved.dt;
-            let mut middle = self.middle(dt, Some(&solved.flow), &[]);
+            let mut middle = self.middle(dt, Some(&solved.flow), &solved.full);
             self.dry(&mut middle)?;
             solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
         }

@@ -57,7 +57,7 @@ impl Implicit {
             self.mesh.set_height(self.middle_height(dt, closing));
         }
         let end = self.end_height(dt, closing);
-        if let Some(flow) = flow.filter(|_| self.setup.gas.is_none()) {
+        if let Some(flow) = flow {
             self.fill_voids(dt, end, &mut full, flow);
         }
         let fractions = self.filled(dt, &full, flow);
@@ -100,6 +100,10 @@ impl Implicit {
     /// the steps after, at a pressure of its own. Returns that rest, over all that flows into voids. No flow but that of the step
     /// itself says what fills: a void that is full by another may have to be sucked full.
     fn fill_voids(&self, dt: f64, end: f64, full: &mut [bool], flow: &Flow) -> f64 {
+        // Air that is closed off leaves no void to be filled.
+        if self.setup.gas.is_some() {
+            return 0.0;
+        }
         let (mesh, volumes) = (&self.mesh, &self.state.volumes);
         let mut found = full.to_vec();
         let (mut rest, mut all) = (0.0, f64::MIN_POSITIVE);
@@ -110,11 +114,9 @@ impl Implicit {
             let void = mesh.connected(first, &|pore| !full[pore], &mut found);
             let (mut inflow, mut room) = (0.0, 0.0);
             for pore in void.iter().map(|&pore| pore as usize) {
-                let (volume, capacity) = (volumes[pore], self.capacity(pore, end));
-                room += capacity - volume;
+                room += self.capacity(pore, end) - volumes[pore];
                 for way in mesh.ways(pore).filter(|way| full[way.beside]) {
-                    let out = way.sign() * mesh.area(way.face) * flow.velocity[way.face] * dt;
-                    inflow -= out.min(out * volume / capacity);
+                    inflow -= way.sign() * mesh.area(way.face) * flow.velocity[way.face] * dt;
                 }
             }
             all += inflow.max(0.0);
@@ -174,9 +176,7 @@ impl Implicit {
 
     /// Whether a flow that was solved in a `middle` brings into voids more than they have room for.
     pub(super) fn overfills(&self, middle: &Middle, flow: &Flow) -> bool {
-        self.setup.gas.is_none() && {
-            let end = self.end_height(middle.dt, flow.speed);
-            self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > OVERFILLED
-        }
+        let end = self.end_height(middle.dt, flow.speed);
+        self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > OVERFILLED
     }
 }

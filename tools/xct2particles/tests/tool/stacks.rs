@@ -67,6 +67,20 @@ fn standard_input_standard_output_and_crops() {
 }
 
 #[test]
+fn labels_are_guessed_or_asked_for() {
+    let bench = bench();
+    let a_three = tiff(DIMS, |_, y, z| label(y).max(z as u8));
+    let undamaged = tiff(DIMS, |_, y, _| label(y).min(128));
+    for (stack, status, said) in [
+        (a_three, 2, &["--labels", "page 4 of 10", "holds 3"][..]),
+        (undamaged, 0, &["void=0,wood=128, without adhesive"]),
+    ] {
+        bench.write("a.tif", &stack);
+        told(&bench, "a.tif -o o.mpts", status, said);
+    }
+}
+
+#[test]
 fn a_voxel_size_against_the_files_own_is_taken_with_a_warning() {
     let bench = labelled();
     let run = |edge, said: &[&str]| {
