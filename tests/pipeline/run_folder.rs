@@ -39,7 +39,7 @@ fn a_run_folder_without_a_mark_is_replaced_only_when_vouched_for() {
     for name in ["final.mpts", "summary.json"] {
         std::fs::remove_file(bench.path("rnu").join(name)).unwrap();
     }
-    let said = "'rnu' holds a run without a checkpoint: it starts again";
+    let said = "'rnu' holds no checkpoint of this run: it starts again";
     bench.ends(0, &mistyped, said);
 }
 

@@ -56,7 +56,8 @@ pub(crate) const KEY: [(&str, [u8; 3]); 3] =
 pub(crate) const GRID: RGBAColor = RGBAColor(0, 60, 140, 0.8);
 
 impl Section {
-    /// The slice through what `file` holds or, where there are, the `greys` of its voxels in storage order.
+    /// The slice through what `file` holds or, where there are, the `greys` of its voxels in storage order,
+    /// with those that are drawn black and white.
     ///
     /// # Errors
     /// [`Error::Data`] for a file without the pressure that is to be shown, [`Error::Request`] for a
@@ -66,7 +67,7 @@ impl Section {
         label: &str,
         cut: Cut,
         colouring: Colouring,
-        greys: Option<&[f64]>,
+        greys: Option<(&[f64], [f64; 2])>,
     ) -> Result<Self, Error> {
         let labels = LabelVolume::of(file)?;
         let header = file.header();
@@ -261,15 +262,8 @@ fn raster(
     )
 }
 
-/// The brightness of grey values between the 0.5 and 99.5 percentiles of the finite ones, and the two in words.
-fn stretched(greys: &[f64]) -> (Vec<u8>, String) {
-    const PER_CENT: [f64; 2] = [0.5, 99.5];
-    let mut sorted = greys.to_vec();
-    sorted.retain(|grey| grey.is_finite());
-    sorted.sort_unstable_by(f64::total_cmp);
-    let last = sorted.len().saturating_sub(1) as f64;
-    let at = |share: f64| sorted.get((share / 100.0 * last).round() as usize);
-    let [low, high] = PER_CENT.map(|share| at(share).map_or(0.0, |grey| *grey));
+/// The brightness of grey values between two of them, and the two in words.
+fn stretched((greys, [low, high]): (&[f64], [f64; 2])) -> (Vec<u8>, String) {
     // A number that is none becomes black.
     let shade = |grey: &f64| (255.0 * (grey - low) / (high - low)).clamp(0.0, 255.0) as u8;
     let ends = format!(", grey {} to {}", low as f32, high as f32);

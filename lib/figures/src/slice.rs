@@ -69,7 +69,8 @@ impl Slices {
     }
 
     /// A panel for each of several cuts through what `file`, called `label`, holds, beside one of the
-    /// grey values in storage order where a cut has such.
+    /// grey values in storage order where a cut has such: black and white are the 0.5 and 99.5
+    /// percentiles of the finite ones of all cuts, so that a grey is as bright in each.
     ///
     /// # Errors
     /// As [`Slices::read`].
@@ -78,8 +79,14 @@ impl Slices {
         label: &str,
         cuts: &[(Cut, Option<&[f64]>)],
     ) -> Result<Self, Error> {
+        let all = cuts.iter().filter_map(|(_, greys)| *greys).flatten();
+        let mut all: Vec<f64> = all.copied().filter(|grey| grey.is_finite()).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let last = all.len().saturating_sub(1) as f64;
+        let at = |share: f64| all.get((share * last).round() as usize);
+        let ends = [0.005, 0.995].map(|share| at(share).copied().unwrap_or(0.0));
         let panels = (cuts.iter()).flat_map(|(cut, greys)| {
-            let greys = greys.map(|greys| (*cut, Some(greys)));
+            let greys = greys.map(|greys| (*cut, Some((greys, ends))));
             greys.into_iter().chain([(*cut, None)])
         });
         let section = |(cut, greys)| Section::of(file, label, cut, Colouring::Plain, greys);

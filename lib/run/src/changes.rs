@@ -50,7 +50,7 @@ pub(crate) fn changed(
         }
         match (place, last.parse::<usize>()) {
             (toml::Value::Array(list), Ok(i)) if i < list.len() => list[i] = value,
-            (toml::Value::Table(table), _) => {
+            (toml::Value::Table(table), Err(_)) => {
                 table.insert(last.to_owned(), value);
             }
             _ => return Err(refuse(&format!("there is no '{last}' to set"))),
@@ -71,7 +71,8 @@ pub(crate) fn changed(
 /// The value below `place` at `part`: a key of a table, made if absent, or an index of an array.
 fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Value, String> {
     match place {
-        toml::Value::Table(table) => Ok(table
+        // No key is a number: a list is missing.
+        toml::Value::Table(table) if part.parse::<usize>().is_err() => Ok(table
             .entry(part)
             .or_insert_with(|| toml::Table::new().into())),
         toml::Value::Array(list) => {
@@ -81,6 +82,6 @@ fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Val
                 format!("'{part}' is no index of an array of {length}, which counts from 0")
             })
         }
-        _ => Err(format!("nothing can be set below '{part}'")),
+        _ => Err(format!("the case has no entry '{part}' there to change")),
     }
 }

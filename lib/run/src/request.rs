@@ -164,7 +164,7 @@ impl Request {
             Some(checkpoint) => self.continued(folder, checkpoint, scheme.as_mut(), &resolved)?,
             None => {
                 let what = match folder.place(RESOLVED).exists() {
-                    true => "a run without a checkpoint: it starts again",
+                    true => "no checkpoint of this run: it starts again",
                     false => "no run to continue: a new one starts",
                 };
                 let begun = self.anew(folder, mode, &resolved, &by)?;

@@ -68,11 +68,24 @@ fn grey_values_are_drawn_beside_their_phases() {
     let greys: Vec<f64> = (0..60 * 20).map(grey).collect();
     let (axis, position) = (Axis::X, Position::Share(0.5));
     let cut = (Cut { axis, position }, Some(&greys[..]));
-    let drawing = Slices::through(&file, "a", &[cut])
-        .unwrap()
-        .draw(Page::default());
-    says(&drawing, &["15000"]);
-    let (width, pixels) = pixels(&drawing);
+    // A cut of one grey has the scale of the other.
+    let slab = [1.1e4; 30 * 20];
+    let within = (
+        Cut {
+            axis: Axis::Y,
+            ..cut.0
+        },
+        Some(&slab[..]),
+    );
+    let drawn = |cuts: &[_]| {
+        let slices = Slices::through(&file, "a", cuts).unwrap();
+        slices.draw(Page::default())
+    };
+    says(
+        &drawn(&[cut, within]),
+        &["y\u{a0}=\u{a0}30.0\u{a0}µm, grey 10000 to 15000"],
+    );
+    let (width, pixels) = pixels(&drawn(&[cut]));
     // Smoothed text has a few such pixels, too.
     let rows = |colour| -> Vec<bool> {
         let row = |row: &[[u8; 3]]| row.iter().filter(|p| **p == colour).count() > 100;

@@ -18,8 +18,9 @@ impl<D: Dimension + Copy> Positive<D> {
 
 impl<'de, D: Dimension> Deserialize<'de> for Positive<D> {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-        let quantity = Quantity::deserialize(reader)?.positive();
-        quantity.map(Self).map_err(Error::custom)
+        let quantity = Quantity::deserialize(reader)?;
+        let given = quantity.to_string();
+        quantity.positive(given).map(Self).map_err(Error::custom)
     }
 }
 

@@ -35,6 +35,8 @@ const REFUSED: &[Refused] = &[
     (&[("velocity = \"clamp\"\n", "")], &[], "[clamp] has nothing to move"),
     (&[], &["body.3.box.min.1=0.5 m"], "'3' is no index of an array of 3, which counts from 0"),
     (&[], &["body.0.box.min.3=0.5 m"], "there is no '3' to set"),
+    (&[], &["clamp.stage.0.speed=1 m/s"], "the case has no entry '0' there to change"),
+    (&[], &["clamp.stage.0=1"], "there is no '0' to set"),
     (&[("[\"16 um\", \"10 um\"", "[\"21 um\", \"10 um\"")], &["grid.cell=1 um"], "out of the domain"),
 ];
 
