@@ -53,7 +53,7 @@ impl View<'_> {
         let axes = if self.lattice.flat { 2 } else { 3 };
         let far = f64::from(LONGEST);
         let lengths = [0, 1, 2].map(|axis| match axis < axes {
-            true => self.chords.length(place, axis, self.gap),
+            true => self.chords.length(self.lattice, place, axis, self.gap),
             false => far,
         });
         let mut widths: Vec<(f64, usize)> = (0..axes)
@@ -128,7 +128,7 @@ impl View<'_> {
                 let (mut at, mut before) = (place, lengths[axis]);
                 let mut way = 0.5 * self.thickness(at, beside);
                 while let Some(next) = self.next(at, beside, up) {
-                    let length = self.chords.length(next, axis, self.gap);
+                    let length = self.chords.length(self.lattice, next, axis, self.gap);
                     if length > WIDENS * before {
                         break;
                     }

@@ -89,7 +89,7 @@ impl Channels<'_> {
             let voxels = mesh.voxels(pore);
             voxels
                 .filter_map(|voxel| mesh.lattice_place(self.lattice, place, voxel))
-                .any(|place| self.chords.through_gap(place))
+                .any(|place| self.chords.through_gap(self.lattice, place))
         };
         mesh.is_by_gap(face) || mesh.faces[face].ends().into_iter().any(through)
     }
@@ -213,7 +213,7 @@ impl Channels<'_> {
     fn width(&self, place: Option<Place>, axis: usize) -> f64 {
         let k = self.mesh.k as f64;
         let gap = self.mesh.rows().height * k;
-        let length = |place: Place| self.chords.length(place, axis, gap);
+        let length = |place: Place| self.chords.length(self.lattice, place, axis, gap);
         (place.map_or(f64::INFINITY, length) / k).max(0.25)
     }
 
