@@ -11,8 +11,8 @@ const SPEED_RATIO: f64 = 1.8;
 /// Processor seconds per unknown and step, as measured with 70 to 700 thousand unknowns.
 const SECONDS: f64 = 4e-6;
 /// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the domain (pores, faces, friction of walls), per voxel
-/// (chords, what measures the bond), and of the process, as measured with 9, 69 and 700 thousand unknowns.
-const BYTES: [f64; 4] = [550.0, 40.0, 40.0, 10e6];
+/// (codes, what measures the bond), and of the process, as measured with 9 thousand to 1.6 million unknowns.
+const BYTES: [f64; 4] = [480.0, 40.0, 20.0, 10e6];
 
 /// Size and cost of a run; cheap, nothing is allocated.
 #[derive(Clone, Debug, PartialEq)]

@@ -99,7 +99,11 @@ impl Chords {
     fn through(&self, lattice: &Lattice, at: usize, gap: f64) -> f64 {
         let [low, high] = [0, 1].map(|part| self.columns[part][at]);
         let voxels = f64::from(low.voxels) + gap + f64::from(high.voxels);
-        ended(lattice, voxels, usize::from(low.to_side) + usize::from(high.to_side))
+        ended(
+            lattice,
+            voxels,
+            usize::from(low.to_side) + usize::from(high.to_side),
+        )
     }
 }
 

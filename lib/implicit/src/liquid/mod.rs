@@ -1,9 +1,8 @@
-//! The liquid: the volume of it in each pore, how it starts and moves, and its profile.
+//! The liquid: the volume of it in each pore, how it starts and moves.
 
 mod carry;
 mod deposit;
 mod overflow;
-mod profile;
 mod transport;
 mod water;
 
@@ -11,5 +10,4 @@ pub(crate) use carry::{
     Kept, carried_pressures, carried_region, carried_velocities, carried_volumes,
 };
 pub(crate) use deposit::{Place, deposit};
-pub(crate) use profile::Profile;
 pub(crate) use transport::{Moved, TRACE, transport};

@@ -4,14 +4,25 @@ use physics::LiquidState;
 use rayon::prelude::*;
 
 use super::Implicit;
-use crate::liquid::{Profile, TRACE};
-use crate::system::FlowField;
+use crate::liquid::TRACE;
+use crate::system::{FlowField, Profile};
 
 impl Implicit {
     /// The points of the liquid.
     pub(super) fn points(&self) -> LiquidState {
         let (mut state, shown) = self.filled_voxels();
-        let (rates, pascal) = (self.rates(), self.setup.units.viscosity);
+        // The walls of the gap of now: the last step's are of that in its middle.
+        let mut links = self.links.clone();
+        let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
+            .map(|(pore, volume)| volume / self.mesh.volume(pore))
+            .collect();
+        links.measure(&self.setup.channels(&self.mesh), &fractions);
+        let field = FlowField {
+            links: &links,
+            ..self.field(&self.state.flow)
+        };
+        let (rates, _) = field.pore_rates(self.setup.liquid.shear_rate);
+        let pascal = self.setup.units.viscosity;
         for &pore in &shown {
             let pressure = self.state.flow.pressure[pore] * pascal;
             for _ in 0..self.mesh.pores[pore].voxels.count_ones() {
@@ -20,7 +31,8 @@ impl Implicit {
                 (state.solids).extend(self.solids_of(pore).map(|solids| solids as f32));
             }
         }
-        let (profile, cell_m) = (self.profile(), self.setup.place.cell_m);
+        let profile = Profile::new(&self.setup.lattice, field);
+        let cell_m = self.setup.place.cell_m;
         let velocities = |&pore: &usize| {
             let velocities = profile.of_pore(pore);
             velocities.map(|velocity| velocity.map(|v| (v * cell_m) as f32))
@@ -60,34 +72,9 @@ impl Implicit {
         (state, shown)
     }
 
-    /// Shear rates of pores in the gap of now: the last step's are of that in its middle.
-    fn rates(&self) -> Vec<f64> {
-        let mut links = self.links.clone();
-        let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
-            .map(|(pore, volume)| volume / self.mesh.volume(pore))
-            .collect();
-        links.measure(&self.setup.channels(&self.mesh), &fractions);
-        let field = FlowField {
-            links: &links,
-            ..self.field(&self.state.flow)
-        };
-        field.pore_rates(self.setup.liquid.shear_rate).0
-    }
-
     /// Volume of the liquid of a pore over that at no pressure, Tait's J.
     pub(super) fn compressed(&self, pore: usize) -> f64 {
         let pressure = self.state.flow.pressure[pore] * self.setup.units.viscosity;
         1.0 + self.setup.liquid.tait.volume_change(pressure)
-    }
-
-    /// The flow within pores.
-    pub(super) fn profile(&self) -> Profile<'_> {
-        Profile {
-            lattice: &self.setup.lattice,
-            mesh: &self.mesh,
-            velocity: &self.state.flow.velocity,
-            speed: self.state.flow.speed,
-            influence_length: self.setup.influence_length,
-        }
     }
 }

@@ -20,11 +20,12 @@ impl Scheme for Implicit {
     fn diagnostics(&self) -> Diagnostics {
         let (mesh, units) = (&self.mesh, self.setup.units);
         let (mut volume, mut energy) = (0.0, 0.0);
-        let profile = self.profile();
+        let flow = self.field(&self.state.flow);
         for pore in 0..mesh.pores.len() {
             let held = self.state.volumes[pore];
             if held > 0.0 {
-                let speed = profile.mean(pore).iter().map(|v| v * v).sum::<f64>();
+                let velocity = flow.mean(&self.setup.lattice, pore);
+                let speed = velocity.iter().map(|v| v * v).sum::<f64>();
                 volume += held * self.compressed(pore);
                 energy += 0.5 * held * speed;
             }

@@ -27,12 +27,26 @@ impl Edge {
     /// Rate of shear across it by the velocities `u` around it.
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
-        let next = mesh.faces[self.next as usize];
-        let along =
-            (u[self.next as usize] - u[face]) / apart(mesh, self.open, [f.low, next.low], self.t);
         let [low, high] = self.across.map(|face| u[face as usize]);
         let across = (high - low) / apart(mesh, self.aside, [f.low, f.high], f.axis);
-        (along * f64::from(self.shared.signum()) + across).abs()
+        (self.slope(mesh, face, u) + across).abs()
+    }
+
+    /// Slope across it of the velocity of the face by the velocities `u`.
+    pub(super) fn slope(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
+        let lows = [face, self.next as usize].map(|face| mesh.faces[face].low);
+        let along = (u[self.next as usize] - u[face]) / apart(mesh, self.open, lows, self.t);
+        along * f64::from(self.shared.signum())
+    }
+
+    /// Whether the next face lies beside it along `t` on the high (`up`) or low side.
+    pub(super) fn is_at(&self, t: usize, up: bool) -> bool {
+        usize::from(self.t) == t && (self.shared > 0) == up
+    }
+
+    /// Columns of voxels that the faces share it by.
+    pub(super) fn columns(&self) -> f64 {
+        f64::from(self.shared.unsigned_abs())
     }
 
     /// The axis that it lies along.

@@ -1,0 +1,191 @@
+//! Velocity at a place in a pore, from those of its faces.
+
+use rayon::prelude::*;
+
+use super::FlowField;
+use crate::geometry::{Lattice, others};
+
+/// A flow, to find velocities within pores. Along its own axis a velocity is linear from face to face. Across it, in cells of two
+/// voxels, it has the slope at the middle of a parabola whose slopes at the two sides of the face are the rates of shear there.
+pub(crate) struct Profile<'a> {
+    pub(crate) lattice: &'a Lattice,
+    pub(crate) flow: FlowField<'a>,
+    /// Slopes of the velocity of each face along the two axes across it, the lower first, 1/s; none of cells of one voxel.
+    slopes: Vec<[f64; 2]>,
+}
+
+/// Velocities of the columns of voxels at a side of a pore, by their place across: the first axis runs fastest.
+type Columns = [Option<f64>; 4];
+
+impl<'a> Profile<'a> {
+    pub(crate) fn new(lattice: &'a Lattice, flow: FlowField<'a>) -> Self {
+        let faces = match flow.mesh.k {
+            1 => 0,
+            _ => flow.mesh.faces.len(),
+        };
+        let slopes = (0..faces).into_par_iter();
+        Self {
+            lattice,
+            slopes: slopes.map(|face| flow.slopes(face)).collect(),
+            flow,
+        }
+    }
+
+    /// Velocities at the middles of the voxels of a pore, in their order, cells/s.
+    pub(crate) fn of_pore(&self, pore: usize) -> impl Iterator<Item = [f64; 3]> {
+        let sides: [[Columns; 2]; 3] = std::array::from_fn(|axis| {
+            [false, true].map(|up| match self.lattice.flat && axis == 2 {
+                true => [None; 4],
+                false => self.columns(pore, axis, up),
+            })
+        });
+        let at = move |voxel: [usize; 3]| {
+            std::array::from_fn(|axis| {
+                let [(first, low), (last, high)] = [false, true]
+                    .map(|up| self.end(pore, voxel, &sides[axis][usize::from(up)], axis, up));
+                let part = (voxel[axis] as f64 + 0.5 - first) / (last - first);
+                let between = |a: f64, b: f64| a + part * (b - a);
+                let own = match (low, high) {
+                    (Some(low), Some(high)) => between(low, high),
+                    (one, other) => one.or(other).unwrap_or(0.0),
+                };
+                let [low, high] =
+                    [false, true].map(|up| self.flow.frame(self.lattice, pore, axis, up));
+                own + between(low, high)
+            })
+        };
+        self.flow.mesh.voxels(pore).map(at)
+    }
+
+    /// Velocities against the grid of the columns of voxels at one side of a pore: 0 at walls, none where the liquid ends.
+    fn columns(&self, pore: usize, axis: usize, up: bool) -> Columns {
+        let (mesh, across) = (self.flow.mesh, others(axis));
+        let k = mesh.k;
+        let mut side: Columns = [Some(0.0); 4];
+        for face in mesh.faces_at(pore, axis, up) {
+            let open = mesh.faces[face].open;
+            let slopes = self.slopes.get(face).copied().unwrap_or_default();
+            let at = |place: usize| [place % k, place / k].map(|i| i as f64 / k as f64);
+            let places = (0..k * k).filter(|place| open >> place & 1 == 1);
+            let middle = places.clone().map(at).fold([0.0; 2], |sum, at| {
+                let count = f64::from(open.count_ones());
+                [sum[0] + at[0] / count, sum[1] + at[1] / count]
+            });
+            for place in places {
+                let off = |i: usize| mesh.edge(pore, across[i]) * (at(place)[i] - middle[i]);
+                let departure = slopes[0] * off(0) + slopes[1] * off(1);
+                side[place] = (self.flow.moves(face)).then(|| self.flow.velocity[face] + departure);
+            }
+        }
+        side
+    }
+
+    /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there,
+    /// of those of the side; none where the liquid ends.
+    fn end(
+        &self,
+        pore: usize,
+        voxel: [usize; 3],
+        side: &Columns,
+        axis: usize,
+        up: bool,
+    ) -> (f64, Option<f64>) {
+        let mesh = self.flow.mesh;
+        let mut last = voxel;
+        let end = if up { mesh.k - 1 } else { 0 };
+        while last[axis] != end {
+            let mut next = last;
+            next[axis] = if up { last[axis] + 1 } else { last[axis] - 1 };
+            if !mesh.holds(pore, next) {
+                return ((last[axis] + usize::from(up)) as f64, Some(0.0));
+            }
+            last = next;
+        }
+        let [s, t] = others(axis);
+        let own = side[last[s] + mesh.k * last[t]];
+        ((last[axis] + usize::from(up)) as f64, own)
+    }
+}
+
+impl FlowField<'_> {
+    /// Velocity of a pore by the means of its faces on the two sides along each axis, cells/s.
+    pub(crate) fn mean(&self, lattice: &Lattice, pore: usize) -> [f64; 3] {
+        let mesh = self.mesh;
+        std::array::from_fn(|axis| {
+            let side = |up: bool| {
+                let faces = mesh.faces_at(pore, axis, up);
+                let (flux, area) = faces.fold((0.0, 0.0), |(flux, area), face| {
+                    let own = mesh.area(face);
+                    (flux + own * self.velocity[face], area + own)
+                });
+                let own = if area > 0.0 { flux / area } else { 0.0 };
+                self.frame(lattice, pore, axis, up) + own
+            };
+            0.5 * (side(false) + side(true))
+        })
+    }
+
+    /// Velocity of the grid along an axis at one side of a pore's cell.
+    fn frame(&self, lattice: &Lattice, pore: usize, axis: usize, up: bool) -> f64 {
+        if axis != 1 {
+            return 0.0;
+        }
+        let row = self.mesh.row_of(pore);
+        let share = self.mesh.rows().share(row + usize::from(up));
+        lattice.speed_at(share) * self.speed
+    }
+
+    /// Whether a face had a velocity in the step: others have none at all.
+    fn moves(&self, face: usize) -> bool {
+        self.velocity[face] != 0.0
+    }
+
+    /// Slopes of the velocity of a face along the two axes across it: means of the rates of shear at its two sides. Where it
+    /// borders on no other face these are the rates at its walls, and none where the liquid ends.
+    fn slopes(&self, face: usize) -> [f64; 2] {
+        if !self.moves(face) {
+            return [0.0; 2];
+        }
+        let (mesh, f) = (self.mesh, self.mesh.faces[face]);
+        let at_walls = self.pull_of_walls(face);
+        // Columns of voxels that the face is open to, across each axis.
+        let columns = [
+            (f.open | f.open >> 1) & 0b0101,
+            (f.open | f.open >> 2) & 0b0011,
+        ]
+        .map(|open| f64::from(open.count_ones()));
+        let across = others(usize::from(f.axis));
+        std::array::from_fn(|i| {
+            let side = |up: bool| {
+                let edges = self.edges.of(face).iter();
+                let (mut rate, mut walls) = (0.0, columns[i]);
+                for edge in edges.filter(|edge| edge.is_at(across[i], up)) {
+                    walls -= edge.columns();
+                    if self.moves(edge.next as usize) {
+                        rate += edge.columns() * edge.slope(mesh, face, self.velocity);
+                    }
+                }
+                let inside = mesh.neighbour(mesh.cell(f.low as usize), across[i], up);
+                match (inside, up) {
+                    (None, _) => rate,
+                    (_, true) => rate + walls * at_walls,
+                    (_, false) => rate - walls * at_walls,
+                }
+            };
+            0.5 * (side(false) + side(true)) / columns[i]
+        })
+    }
+
+    /// Rate of shear at the walls of a face by which they pull it on, 1/s.
+    fn pull_of_walls(&self, face: usize) -> f64 {
+        let link = self.links.of(face);
+        if link.area == 0.0 {
+            return 0.0;
+        }
+        let pull = |half: usize| {
+            let [own, closing] = link.sliding[half];
+            own + closing * self.speed - link.friction[half] * self.velocity[face]
+        };
+        (pull(0) + pull(1)) / link.area
+    }
+}
