@@ -21,8 +21,6 @@ fn a_preview_is_drawn_of_three_cuts_and_needs_no_other_output() {
     let beside = bytes(grey, &[]);
     let level = bytes(&format!("{grey} --level y"), &["without grey values"]);
     assert!(beside > level + png.len() as u64 / 2, "{beside} {level}");
-    let vector = "acer.tif --voxel 1.45um --preview look.svg";
-    told(&bench, vector, 2, &["end in .png"]);
 }
 
 #[test]
@@ -123,20 +121,6 @@ fn specks_are_taken_out_where_that_is_asked_for() {
     for quiet in ["speckled.tif --despeckle 4", "clean.tif"] {
         let (_, said, _) = columns(&format!("{quiet} {grey}"), &[]);
         assert!(!said.contains("look like noise"), "{said}");
-    }
-}
-
-#[test]
-fn an_edge_in_the_wrong_unit_is_refused() {
-    let bench = with_acer();
-    for (edge, status) in [
-        ("1.45mm", 2),
-        ("1.45nm", 2),
-        ("1.45mm --yes-really", 0),
-        ("50um", 0),
-    ] {
-        let line = format!("acer.tif --voxel {edge} -o -");
-        told(&bench, &line, status, &["is the unit right?"]);
     }
 }
 
