@@ -7,8 +7,8 @@ use units::{Axis, Pressure};
 
 use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, number, one_of,
-    part, png, position, run, share,
+    Extent, Target, cell, experiment, given, labelled, name, number, one_of, part, png, position,
+    run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -88,7 +88,7 @@ pub(crate) enum Figure {
         #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
         files: Vec<Labelled>,
         /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
-        #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of(SHOWN))]
+        #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of::<Shown>())]
         show: Shown,
         #[command(flatten)]
         picture: Picture,
@@ -189,7 +189,7 @@ pub(crate) struct SliceArgs {
           value_parser = position)]
     pub(crate) at: Position,
     /// Colour the adhesive: plain, or by its pressure
-    #[arg(long, default_value = "plain", value_parser = one_of(COLOURINGS))]
+    #[arg(long, default_value = "plain", value_parser = one_of::<Colouring>())]
     pub(crate) colour: Colouring,
     /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
     /// or voxels
