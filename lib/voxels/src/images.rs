@@ -157,10 +157,7 @@ fn png_shown(info: &png::Info) -> Shown {
                 .collect(),
         ),
         (_, 16) => Shown::GREY,
-        (_, bits) => Shown::Grey {
-            bits,
-            inverted: false,
-        },
+        (_, bits) => Shown::grey(bits, false),
     }
 }
 
