@@ -74,20 +74,16 @@ pub struct Penetration {
 /// the total WP is the volume-weighted mean of the squares of the sides.
 pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     // Voxels and material points, millions of them, are visited again rather than listed.
-    let each = |visit: &mut dyn FnMut(Sample)| {
+    let each = |visit: &mut dyn FnMut(Side, f64, f64)| {
         state.for_each_parcel(|point, volume| {
             let (side, depth) = datum.depth(point, state.voxel_m);
-            visit(Sample {
-                side,
-                depth,
-                volume,
-            });
+            visit(side, depth, volume);
         });
     };
     let mut sums = [Sum::NONE; 3];
-    each(&mut |sample| {
+    each(&mut |on, depth, volume| {
         for (sum, side) in sums.iter_mut().zip(Side::ALL) {
-            sum.add(&sample, side.share(sample.side));
+            sum.add(side.share(on), depth, volume);
         }
     });
     let area = state.area_m2() * datum.slant();
@@ -95,10 +91,10 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     std::array::from_fn(|i| {
         let (side, sum) = (Side::ALL[i], sums[i]);
         let depths = |visit: &mut dyn FnMut(f64, f64)| {
-            each(&mut |sample| {
-                let share = side.share(sample.side);
+            each(&mut |on, depth, volume| {
+                let share = side.share(on);
                 if share > 0.0 {
-                    visit(sample.depth, share * sample.volume);
+                    visit(depth, share * volume);
                 }
             });
         };
@@ -118,20 +114,13 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     })
 }
 
-#[derive(Clone, Copy)]
-struct Sample {
-    side: Side,
-    depth: f64,
-    volume: f64,
-}
-
-/// What the samples of a side add up to.
+/// What the parcels of a side add up to.
 #[derive(Clone, Copy)]
 struct Sum {
     volume: f64,
     squares: f64,
     voxels: f64,
-    /// NaN without samples.
+    /// NaN without parcels.
     deepest: f64,
 }
 
@@ -143,14 +132,14 @@ impl Sum {
         deepest: f64::NAN,
     };
 
-    fn add(&mut self, sample: &Sample, share: f64) {
+    fn add(&mut self, share: f64, depth: f64, volume: f64) {
         if share == 0.0 {
             return;
         }
-        let volume = share * sample.volume;
+        let volume = share * volume;
         self.volume += volume;
-        self.squares += volume * sample.depth * sample.depth;
+        self.squares += volume * depth * depth;
         self.voxels += share;
-        self.deepest = self.deepest.max(sample.depth);
+        self.deepest = self.deepest.max(depth);
     }
 }
