@@ -133,7 +133,7 @@ impl ParticleFile {
             .ok_or_else(|| self.missing(format!("block number {index}")))?;
         let words = self.values_of(index)?;
         let dims = layout::usize_dims(block.dims);
-        match dims.and_then(|dims| BitsRef::new(dims, words)) {
+        match dims.and_then(|dims| BitsRef::from_words(dims, words)) {
             Some(bits) if bits.count() == block.count => Ok((block, bits)),
             _ => Err(self.corrupt(format!(
                 "says that block '{}' has {} voxels, which is not what its bits say",
