@@ -62,19 +62,15 @@ impl ParticleFile {
             true => "standard input".to_owned(),
             false => path.display().to_string(),
         };
-        Self::named(name, bytes)
-    }
-
-    fn named(file: String, bytes: io::Result<Mapped>) -> Result<Self, Error> {
         match bytes {
-            Ok(bytes) => Self::from_mapped(file, bytes),
-            Err(reason) => Err(Error::unreadable(file, &reason)),
+            Ok(bytes) => Self::from_mapped(name, bytes),
+            Err(reason) => Err(Error::unreadable(name, &reason)),
         }
     }
 
     /// Reads a file that lies in memory.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        Self::named("bytes in memory".into(), Mapped::copy_of(bytes))
+        Self::of_input("bytes in memory".as_ref(), Mapped::copy_of(bytes))
     }
 
     /// Reads an input that was mapped already, e.g. to see what it is; `name` is for

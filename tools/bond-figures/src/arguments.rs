@@ -224,10 +224,10 @@ pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of an experiment; may be repeated
     #[arg(long, value_name = "ADHESIVE=CSV", required_unless_present = "run",
           value_parser = given(experiment))]
-    experiment: Vec<Case>,
+    pub(crate) experiment: Vec<Case>,
     /// Table of `wp-metrics` of a run's final state; may be repeated
     #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = given(run))]
-    run: Vec<Case>,
+    pub(crate) run: Vec<Case>,
     /// Write errors (needs tables of `wp-metrics --finer`): WP, EP and pressure extrapolated to zero
     /// cell size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
@@ -246,11 +246,4 @@ pub(crate) struct Table2Args {
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) print: Print,
-}
-
-impl Table2Args {
-    /// Experiments, then runs.
-    pub(crate) fn cases(&self) -> Vec<Case> {
-        self.experiment.iter().chain(&self.run).cloned().collect()
-    }
 }
