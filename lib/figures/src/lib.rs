@@ -5,7 +5,6 @@
 //! that are not there: a missing column or an empty file is an [`Error`].
 
 mod axes;
-mod base64;
 mod bitmap;
 mod camera;
 mod cell_band;
@@ -46,7 +45,6 @@ mod text;
 mod view;
 mod wp_map;
 
-pub use base64::base64;
 pub use closing::{closing, time_unit};
 pub use clouds::{Clouds, Spot};
 pub use column_name::worded;
@@ -62,6 +60,7 @@ pub use run_end::{RunEnd, read_beside};
 pub use setup::setup;
 pub use shear_rate::shear_rates;
 pub use slice::{Colouring, Cut, Position, Slices};
+pub use svg::base64;
 pub use table::Table;
 pub use table2::{Case, ERRORS, Table2};
 pub use view::{Direction, Views, Wood};

@@ -18,7 +18,8 @@ const WP: [&str; 3] = ["wp", "um", "WP, "];
 const DEEPEST: [&str; 3] = ["p95_depth", "um", "95 %, "];
 
 /// What of penetration a figure shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "lowercase")]
 pub enum Shown {
     /// WP and the depth of 95 % of the adhesive over time.
     Depth,

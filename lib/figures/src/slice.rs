@@ -22,7 +22,8 @@ pub struct Slices {
 }
 
 /// What the adhesive's colour shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "lowercase")]
 pub enum Colouring {
     /// Where it is.
     Plain,

@@ -2,21 +2,27 @@
 
 use std::fmt::Write as _;
 
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontTransform, TextStyle};
 
+use crate::Error;
 use crate::bitmap::encode;
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::page::millimetres;
 use crate::replay::{failed, replay};
-use crate::{Error, base64};
 
 /// Units of the SVG per logical pixel: the backend writes whole numbers.
 const SCALE: u32 = 8;
 /// Families in an SVG, the first there is: none is much wider than the embedded one, by which
 /// the room for texts is measured.
 const FAMILIES: &str = "DejaVu Sans, Verdana, Arial, Helvetica, sans-serif";
+
+/// The bytes in base 64, for pictures inside SVG and HTML.
+pub fn base64(bytes: &[u8]) -> String {
+    BASE64_STANDARD.encode(bytes)
+}
 
 impl Drawing {
     /// The drawing as an SVG document, as wide as its page says.

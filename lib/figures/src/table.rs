@@ -159,5 +159,15 @@ mod tests {
         assert_eq!(said(table.numbers("b")), empty);
         let infinite = "'t.csv', line 3, column c: 'inf' is not a finite number";
         assert_eq!(said(table.numbers_but("c", |_| true)), infinite);
+        let lacks = "'t.csv' has no column d: it has a, b, c";
+        assert_eq!(said(table.numbers("d")), lacks);
+    }
+
+    #[test]
+    fn a_table_has_at_least_one_row() {
+        for text in ["", "a,b,c\n", "# nothing\n"] {
+            let said = table(text).err().unwrap().to_string();
+            assert!(said.contains("at least one row"), "{said}");
+        }
     }
 }

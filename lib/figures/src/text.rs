@@ -25,14 +25,41 @@ pub(crate) fn draw<B: DrawingBackend>(
     anchor: Anchor,
     size: f64,
 ) -> Result<(), Error> {
-    let line = Line::new(text, (EM * size) as f32)?;
-    let start = anchor.before() as f32 * line.width;
-    let [left, top] = [start + line.margin, line.baseline - 0.5 * line.capitals];
+    let font = FontRef::new(dejavu::sans::regular()).map_err(failed)?;
+    let em = (EM * size) as f32;
+    let (size, place) = (Size::new(em), LocationRef::default());
+    let (metrics, advances) = (font.metrics(size, place), font.glyph_metrics(size, place));
+    // What the font lacks is drawn as its glyph 0, a box.
+    let glyphs: Vec<GlyphId> = (text.chars())
+        .map(|c| font.charmap().map(c).unwrap_or(GlyphId::NOTDEF))
+        .collect();
+    let advance = |&glyph| advances.advance_width(glyph).unwrap_or(0.0);
+    let length = glyphs.iter().map(advance).sum::<f32>();
+    // Glyphs may reach beyond their advance and the line's height: an em is enough.
+    let (margin, baseline) = (em, metrics.ascent + em);
+    let edges = [length + 2.0 * margin, baseline + em - metrics.descent];
+    let [columns, rows] = edges.map(|edge| edge.ceil() as usize);
+    // The share of each pixel that they cover.
+    let mut ink = Rasterizer::new(columns, rows);
+    let outlines = font.outline_glyphs();
+    let mut x = margin;
+    for glyph in &glyphs {
+        if let Some(outline) = outlines.get(*glyph) {
+            let mut path: Vec<PathElement> = Vec::new();
+            let settings = DrawSettings::unhinted(size, place);
+            outline.draw(settings, &mut path).map_err(failed)?;
+            trace(&mut ink, &path, point(x, baseline));
+        }
+        x += advance(glyph);
+    }
+    let capitals = metrics.cap_height.unwrap_or(0.73 * em);
+    let start = anchor.before() as f32 * length;
+    let [left, top] = [start + margin, baseline - 0.5 * capitals];
     let origin = at.map(|x| x.round() as i32);
     let [left, top] = [left, top].map(|x| x.round() as i32);
     let (width, height) = backend.get_size();
     let mut failure = None;
-    line.ink.for_each_pixel_2d(|column, row, cover| {
+    ink.for_each_pixel_2d(|column, row, cover| {
         let [right, down] = [column as i32 - left, row as i32 - top];
         let [x, y] = match anchor {
             Anchor::Upwards => [origin[0] + down, origin[1] - right - 1],
@@ -40,62 +67,11 @@ pub(crate) fn draw<B: DrawingBackend>(
         };
         let inside = (0..width as i32).contains(&x) && (0..height as i32).contains(&y);
         if inside && cover > 0.0 && failure.is_none() {
-            let ink = RGBAColor(0, 0, 0, f64::from(cover.min(1.0))).to_backend_color();
-            failure = backend.draw_pixel((x, y), ink).err();
+            let shade = RGBAColor(0, 0, 0, f64::from(cover.min(1.0))).to_backend_color();
+            failure = backend.draw_pixel((x, y), shade).err();
         }
     });
     failure.map_or(Ok(()), |e| Err(failed(e)))
-}
-
-/// A line of text as the share of each pixel that its glyphs cover; lengths in pixels.
-struct Line {
-    ink: Rasterizer,
-    /// From the left edge to where the first glyph starts.
-    margin: f32,
-    /// From the top edge to the baseline.
-    baseline: f32,
-    /// Sum of the advances.
-    width: f32,
-    /// Height of the capitals.
-    capitals: f32,
-}
-
-impl Line {
-    fn new(text: &str, em: f32) -> Result<Self, Error> {
-        let font = FontRef::new(dejavu::sans::regular()).map_err(failed)?;
-        let (size, place) = (Size::new(em), LocationRef::default());
-        let (metrics, advances) = (font.metrics(size, place), font.glyph_metrics(size, place));
-        // What the font lacks is drawn as its glyph 0, a box.
-        let glyphs: Vec<GlyphId> = (text.chars())
-            .map(|c| font.charmap().map(c).unwrap_or(GlyphId::NOTDEF))
-            .collect();
-        let advance = |&glyph| advances.advance_width(glyph).unwrap_or(0.0);
-        let width = glyphs.iter().map(advance).sum::<f32>();
-        // Glyphs may reach beyond their advance and the line's height: an em is enough.
-        let (margin, baseline) = (em, metrics.ascent + em);
-        let edges = [width + 2.0 * margin, baseline + em - metrics.descent];
-        let [columns, rows] = edges.map(|edge| edge.ceil() as usize);
-        let mut ink = Rasterizer::new(columns, rows);
-        let outlines = font.outline_glyphs();
-        let mut x = margin;
-        for glyph in &glyphs {
-            if let Some(outline) = outlines.get(*glyph) {
-                let mut path: Vec<PathElement> = Vec::new();
-                let settings = DrawSettings::unhinted(size, place);
-                outline.draw(settings, &mut path).map_err(failed)?;
-                trace(&mut ink, &path, point(x, baseline));
-            }
-            x += advance(glyph);
-        }
-        let capitals = metrics.cap_height.unwrap_or(0.73 * em);
-        Ok(Self {
-            ink,
-            margin,
-            baseline,
-            width,
-            capitals,
-        })
-    }
 }
 
 /// Puts an outline, whose y points up from `origin`, among pixels, whose y points down.

@@ -27,7 +27,8 @@ pub struct Views {
 }
 
 /// How much of the wood is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "lowercase")]
 pub enum Wood {
     /// None: the adhesive alone (Fig. 7).
     Hidden,

@@ -1,8 +1,6 @@
 //! State of a press at one moment, beside penetration: wood wetted, lumens filled, and whether
 //! the bond line is filled.
 
-use std::fmt;
-
 use bondline::Placed;
 use particle_file::{BitGrid, BitsRef};
 use voxels::VolumeFractions;
@@ -21,7 +19,8 @@ const HALF: f64 = 0.5;
 const SQUEEZED_OUT: f64 = 0.05;
 
 /// Whether there is adhesive where the adherends meet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Filling {
     /// It fills at least half of the room outside wood.
     Filled,
@@ -29,16 +28,6 @@ pub enum Filling {
     Starved,
     /// More than a twentieth of the adhesive has left through open sides.
     SqueezedOut,
-}
-
-impl fmt::Display for Filling {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Filled => "filled",
-            Self::Starved => "starved",
-            Self::SqueezedOut => "squeezed-out",
-        })
-    }
 }
 
 /// The bond line of a state.

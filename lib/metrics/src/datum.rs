@@ -1,7 +1,5 @@
 //! The plane or surfaces from which depth is counted.
 
-use std::fmt;
-
 use bondline::surface;
 use units::Axis;
 
@@ -10,7 +8,8 @@ use crate::penetration::Side;
 use crate::{Adhesive, Error, State, Wood};
 
 /// What penetration is measured from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Reference {
     /// The level midway between the bond surfaces of the two adherends, where they are now.
     /// In a scanned specimen this is the bond plane.
@@ -22,17 +21,6 @@ pub enum Reference {
     Plane(f64),
     /// The plane, possibly tilted, that best fits the middle between the surfaces.
     Fit,
-}
-
-impl fmt::Display for Reference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Reference::Mid => "mid",
-            Reference::Adherend => "adherend",
-            Reference::Plane(_) => "plane",
-            Reference::Fit => "fit",
-        })
-    }
 }
 
 /// A [`Reference`] found in a state.

@@ -43,36 +43,30 @@ pub(crate) fn squared_distances(
     let mut dims = to.dims;
     // Three passes, each of which brings the last axis to the front, restore their order.
     for axis in [2, 1, 0] {
-        let line = Line {
-            foot: to.shift[axis],
-            place: from.shift[axis],
-            places: from.dims[axis],
-        };
-        squares = along_last(&squares, dims, line);
-        dims = [line.places, dims[0], dims[1]];
+        let (first, places) = ([to.shift[axis], from.shift[axis]], from.dims[axis]);
+        squares = along_last(&squares, dims, first, places);
+        dims = [places, dims[0], dims[1]];
     }
     squares
 }
 
-/// Where distances of a line are from and to: the first places, half voxels, and their number.
-#[derive(Clone, Copy)]
-struct Line {
-    foot: usize,
-    place: usize,
+/// Carries squares on along the slowest axis, which becomes the fastest: from feet to `places`, the first of which are
+/// at `foot` and `place`, half voxels.
+fn along_last(
+    squares: &[u32],
+    [nx, ny, nz]: [usize; 3],
+    [foot, place]: [usize; 2],
     places: usize,
-}
-
-/// Carries squares on along the slowest axis, which becomes the fastest.
-fn along_last(squares: &[u32], [nx, ny, nz]: [usize; 3], along: Line) -> Vec<u32> {
+) -> Vec<u32> {
     let lines = nx * ny;
-    let mut carried = vec![FAR; lines * along.places];
-    let rows = carried.par_chunks_mut(along.places.max(1)).enumerate();
+    let mut carried = vec![FAR; lines * places];
+    let rows = carried.par_chunks_mut(places.max(1)).enumerate();
     rows.for_each_init(Envelope::default, |envelope, (line, out)| {
         envelope.clear();
         for z in 0..nz {
-            envelope.add(2 * z + along.foot, squares[z * lines + line]);
+            envelope.add(2 * z + foot, squares[z * lines + line]);
         }
-        envelope.read(along.place, out);
+        envelope.read(place, out);
     });
     carried
 }

@@ -1,12 +1,11 @@
 //! Weighted and effective penetration.
 
-use std::fmt;
-
 use crate::quantile::quantiles;
-use crate::{Adhesive, Datum, State};
+use crate::{Datum, State};
 
 /// One side of the bond line, or both.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Side {
     /// Low-coordinate side.
     Bottom,
@@ -43,16 +42,6 @@ impl Side {
     }
 }
 
-impl fmt::Display for Side {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Side::Bottom => "bottom",
-            Side::Top => "top",
-            Side::Total => "total",
-        })
-    }
-}
-
 /// How far adhesive went into one side of a bond line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penetration {
@@ -84,24 +73,17 @@ pub struct Penetration {
 /// Voxels count at their centres; those whose centre is on the plane between the sides count half to each. The square of
 /// the total WP is the volume-weighted mean of the squares of the sides.
 pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
-    let layers = layers(state, datum);
-    // Material points, millions of them, are visited again rather than listed.
-    let each = |visit: &mut dyn FnMut(Sample)| match &layers {
-        Some(layers) => layers.iter().copied().for_each(visit),
-        None => state.for_each_parcel(|point, volume| {
+    // Voxels and material points, millions of them, are visited again rather than listed.
+    let each = |visit: &mut dyn FnMut(Side, f64, f64)| {
+        state.for_each_parcel(|point, volume| {
             let (side, depth) = datum.depth(point, state.voxel_m);
-            visit(Sample {
-                side,
-                depth,
-                volume,
-                voxels: 1,
-            });
-        }),
+            visit(side, depth, volume);
+        });
     };
     let mut sums = [Sum::NONE; 3];
-    each(&mut |sample| {
+    each(&mut |on, depth, volume| {
         for (sum, side) in sums.iter_mut().zip(Side::ALL) {
-            sum.add(&sample, side.share(sample.side));
+            sum.add(side.share(on), depth, volume);
         }
     });
     let area = state.area_m2() * datum.slant();
@@ -109,10 +91,10 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     std::array::from_fn(|i| {
         let (side, sum) = (Side::ALL[i], sums[i]);
         let depths = |visit: &mut dyn FnMut(f64, f64)| {
-            each(&mut |sample| {
-                let share = side.share(sample.side);
+            each(&mut |on, depth, volume| {
+                let share = side.share(on);
                 if share > 0.0 {
-                    visit(sample.depth, share * sample.volume);
+                    visit(depth, share * volume);
                 }
             });
         };
@@ -132,21 +114,13 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     })
 }
 
-#[derive(Clone, Copy)]
-struct Sample {
-    side: Side,
-    depth: f64,
-    volume: f64,
-    voxels: u64,
-}
-
-/// What the samples of a side add up to.
+/// What the parcels of a side add up to.
 #[derive(Clone, Copy)]
 struct Sum {
     volume: f64,
     squares: f64,
     voxels: f64,
-    /// NaN without samples.
+    /// NaN without parcels.
     deepest: f64,
 }
 
@@ -158,36 +132,14 @@ impl Sum {
         deepest: f64::NAN,
     };
 
-    fn add(&mut self, sample: &Sample, share: f64) {
+    fn add(&mut self, share: f64, depth: f64, volume: f64) {
         if share == 0.0 {
             return;
         }
-        let volume = share * sample.volume;
+        let volume = share * volume;
         self.volume += volume;
-        self.squares += volume * sample.depth * sample.depth;
-        self.voxels += share * sample.voxels as f64;
-        self.deepest = self.deepest.max(sample.depth);
+        self.squares += volume * depth * depth;
+        self.voxels += share;
+        self.deepest = self.deepest.max(depth);
     }
-}
-
-/// Voxels by layers, all of one depth; none of a tilted datum or of material points.
-fn layers(state: &State, datum: &Datum) -> Option<Vec<Sample>> {
-    let (Adhesive::Voxels(voxels), Datum::Level { normal, .. }) = (state.adhesive, datum) else {
-        return None;
-    };
-    let n = normal.index();
-    let volume = voxels.voxel_m.powi(3);
-    let counts = voxels.bits.counts_along(n).into_iter().enumerate();
-    let filled = counts.filter(|(_, count)| *count > 0);
-    let sample = |(layer, voxels_of_it): (usize, u64)| {
-        let centre = voxels.origin_m[n] + (layer as f64 + 0.5) * voxels.voxel_m;
-        let (side, depth) = datum.depth_of_level(centre, voxels.voxel_m);
-        Sample {
-            side,
-            depth,
-            volume: voxels_of_it as f64 * volume,
-            voxels: voxels_of_it,
-        }
-    };
-    Some(filled.map(sample).collect())
 }

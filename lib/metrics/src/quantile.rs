@@ -18,11 +18,17 @@ pub(crate) fn quantiles<const N: usize>(
     let mut weights = vec![0.0; BINS];
     each(&mut |value, weight| weights[bin(value)] += weight);
     // Rounding of the running sum must not push a quantile to the next value.
-    let near = shares.map(|share| Near::new(&weights, share * total * (1.0 - 1e-12)));
-    let mut listed: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
-    for near in &near {
-        listed.entry(near.bin).or_default();
-    }
+    let near = shares.map(|share| {
+        let goal = share * total * (1.0 - 1e-12);
+        let (mut bin, mut below) = (0, 0.0);
+        while bin < BINS - 1 && below + weights[bin] < goal {
+            below += weights[bin];
+            bin += 1;
+        }
+        (bin, below, goal)
+    });
+    let mut listed: BTreeMap<usize, Vec<(f64, f64)>> =
+        near.iter().map(|(bin, ..)| (*bin, Vec::new())).collect();
     each(&mut |value, weight| {
         if let Some(pairs) = listed.get_mut(&bin(value)) {
             pairs.push((value, weight));
@@ -32,34 +38,15 @@ pub(crate) fn quantiles<const N: usize>(
         // Equal pairs are alike, so the order is unique.
         pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     }
-    near.map(|near| near.value(&listed[&near.bin]))
-}
-
-struct Near {
-    bin: usize,
-    below: f64,
-    goal: f64,
-}
-
-impl Near {
-    fn new(weights: &[f64], goal: f64) -> Self {
-        let (mut bin, mut below) = (0, 0.0);
-        while bin < BINS - 1 && below + weights[bin] < goal {
-            below += weights[bin];
-            bin += 1;
-        }
-        Self { bin, below, goal }
-    }
-
-    fn value(&self, pairs: &[(f64, f64)]) -> f64 {
-        let mut reached = self.below;
+    near.map(|(bin, mut reached, goal)| {
+        let pairs = &listed[&bin];
         let at = pairs.iter().find(|(_, weight)| {
             reached += weight;
-            reached >= self.goal
+            reached >= goal
         });
         // Rounding may leave the sum of the bin below the goal.
         at.or(pairs.last()).map_or(f64::NAN, |(value, _)| *value)
-    }
+    })
 }
 
 #[cfg(test)]

@@ -6,18 +6,17 @@ pub(crate) const WORD: usize = u64::BITS as usize;
 
 /// A box of voxels, one bit each, x fastest. Every row (fixed y and z) starts at a new word,
 /// so that a row is a slice; the bits behind the last voxel of a row are zero. Places outside panic.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BitGrid {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bits<W> {
     dims: [usize; 3],
-    words: Vec<u64>,
+    words: W,
 }
 
+/// A box with words of its own.
+pub type BitGrid = Bits<Vec<u64>>;
+
 /// A borrowed [`BitGrid`], e.g. straight from a mapped file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BitsRef<'a> {
-    dims: [usize; 3],
-    words: &'a [u64],
-}
+pub type BitsRef<'a> = Bits<&'a [u64]>;
 
 /// Words of all rows, or `None` when that number overflows.
 pub(crate) fn word_count(dims: [usize; 3]) -> Option<usize> {
@@ -47,12 +46,6 @@ impl BitGrid {
         }
     }
 
-    /// A grid from its words; `None` where [`BitsRef::new`] says so.
-    pub fn from_words(dims: [usize; 3], words: Vec<u64>) -> Option<Self> {
-        BitsRef::new(dims, &words)?;
-        Some(Self { dims, words })
-    }
-
     /// Builds the rows in parallel: `fill(y, z, row)` gets each row zeroed. Bits behind the
     /// last voxel are cleared afterwards.
     pub fn from_rows(dims: [usize; 3], fill: impl Fn(usize, usize, &mut [u64]) + Sync) -> Self {
@@ -77,25 +70,6 @@ impl BitGrid {
         })
     }
 
-    /// Number of voxels along x, y, z.
-    pub fn dims(&self) -> [usize; 3] {
-        self.dims
-    }
-
-    /// A borrowed view.
-    pub fn view(&self) -> BitsRef<'_> {
-        BitsRef {
-            dims: self.dims,
-            words: &self.words,
-        }
-    }
-
-    /// Whether voxel (x, y, z) is set.
-    #[inline]
-    pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
-        self.view().get(x, y, z)
-    }
-
     /// Sets or clears voxel (x, y, z).
     pub fn set(&mut self, x: usize, y: usize, z: usize, value: bool) {
         assert!(x < self.dims[0], "voxel outside the grid");
@@ -103,37 +77,31 @@ impl BitGrid {
         *word = *word & !(1 << (x % WORD)) | u64::from(value) << (x % WORD);
     }
 
-    /// Number of set voxels.
-    pub fn count(&self) -> u64 {
-        self.view().count()
-    }
-
-    /// The words of row (y, z), x fastest.
-    pub fn row(&self, y: usize, z: usize) -> &[u64] {
-        self.view().row(y, z)
-    }
-
     /// The words of row (y, z) for writing; bits behind the last voxel must stay zero.
     pub fn row_mut(&mut self, y: usize, z: usize) -> &mut [u64] {
         let range = row_range(self.dims, y, z);
         &mut self.words[range]
     }
-
-    /// All words, rows (y, z) with y fastest.
-    pub fn words(&self) -> &[u64] {
-        &self.words
-    }
 }
 
-impl<'a> BitsRef<'a> {
-    /// A view of `words`; `None` when their number is not `ceil(nx / 64) * ny * nz` or a bit
+impl<W: AsRef<[u64]>> Bits<W> {
+    /// A box from its words; `None` when their number is not `ceil(nx / 64) * ny * nz` or a bit
     /// behind the end of a row is set.
-    pub fn new(dims: [usize; 3], words: &'a [u64]) -> Option<Self> {
+    pub fn from_words(dims: [usize; 3], words: W) -> Option<Self> {
         let outside = !last_word_mask(dims[0]);
-        let mut rows = words.chunks_exact(dims[0].div_ceil(WORD).max(1));
-        let sound = word_count(dims)? == words.len()
+        let all = words.as_ref();
+        let mut rows = all.chunks_exact(dims[0].div_ceil(WORD).max(1));
+        let sound = word_count(dims)? == all.len()
             && rows.all(|row| row.last().is_some_and(|last| last & outside == 0));
         sound.then_some(Self { dims, words })
+    }
+
+    /// A borrowed view.
+    pub fn view(&self) -> BitsRef<'_> {
+        Bits {
+            dims: self.dims,
+            words: self.words(),
+        }
     }
 
     /// Number of voxels along x, y, z.
@@ -150,22 +118,25 @@ impl<'a> BitsRef<'a> {
 
     /// Number of set voxels.
     pub fn count(&self) -> u64 {
-        popcount(self.words)
+        popcount(self.words())
     }
 
     /// The words of row (y, z), x fastest.
-    pub fn row(&self, y: usize, z: usize) -> &'a [u64] {
-        &self.words[row_range(self.dims, y, z)]
+    pub fn row(&self, y: usize, z: usize) -> &[u64] {
+        &self.words()[row_range(self.dims, y, z)]
     }
 
     /// All words, rows (y, z) with y fastest.
-    pub fn words(&self) -> &'a [u64] {
-        self.words
+    pub fn words(&self) -> &[u64] {
+        self.words.as_ref()
     }
+}
 
+impl<'a> BitsRef<'a> {
     /// The x of the set voxels of row (y, z), ascending.
     pub fn set_in_row(&self, y: usize, z: usize) -> impl Iterator<Item = usize> + use<'a> {
-        self.row(y, z).iter().enumerate().flat_map(|(w, &word)| {
+        let row = &self.words[row_range(self.dims, y, z)];
+        row.iter().enumerate().flat_map(|(w, &word)| {
             std::iter::successors(Some(word), |&rest| Some(rest & rest.wrapping_sub(1)))
                 .take_while(|&rest| rest != 0)
                 .map(move |rest| w * WORD + rest.trailing_zeros() as usize)

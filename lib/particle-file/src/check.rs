@@ -1,7 +1,5 @@
 //! Whether a file agrees with its checksums.
 
-use rayon::prelude::*;
-
 use crate::error::Error;
 use crate::header::Kind;
 use crate::layout::ALIGN;
@@ -34,16 +32,10 @@ impl ParticleFile {
     fn check_finite<T: Value>(
         &self,
         section: &Section,
-        finite: impl Fn(T) -> bool + Sync,
+        finite: impl Fn(T) -> bool,
     ) -> Result<(), Error> {
-        const CHUNK: usize = 1 << 14;
         let values = self.column::<T>(&section.name)?;
-        let first_of_chunk = |(chunk, values): (usize, &[T])| {
-            let at = values.iter().position(|&x| !finite(x))?;
-            Some(chunk * CHUNK + at)
-        };
-        let chunks = values.par_chunks(CHUNK).enumerate();
-        match chunks.find_map_first(first_of_chunk) {
+        match values.iter().position(|&x| !finite(x)) {
             None => Ok(()),
             Some(at) => Err(self.corrupt(format!(
                 "has a value that is not a finite number in row {} of column '{}'",

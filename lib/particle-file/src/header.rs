@@ -17,31 +17,25 @@ const CODEC: Configuration<LittleEndian, Fixint, Limit<MAX_HEADER>> =
     bincode::config::legacy().with_limit::<MAX_HEADER>();
 
 /// What a particle file holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode, strum::Display)]
 pub enum Kind {
     /// A scanned or synthetic specimen: blocks "wood" and "adhesive".
+    #[strum(to_string = "specimen")]
     Specimen,
     /// A bond line before pressing: blocks "wood-bottom", "wood-top" and "adhesive".
+    #[strum(to_string = "bond before pressing")]
     Bond,
     /// A state of a run: blocks "wood-bottom" and "wood-top", the liquid as columns.
+    #[strum(to_string = "state of a run")]
     State,
     /// Everything a run needs to go on: columns of any length and blobs.
+    #[strum(to_string = "checkpoint of a run")]
     Checkpoint,
 }
 
-impl std::fmt::Display for Kind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Kind::Specimen => "specimen",
-            Kind::Bond => "bond before pressing",
-            Kind::State => "state of a run",
-            Kind::Checkpoint => "checkpoint of a run",
-        })
-    }
-}
-
 /// What a block is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Material {
     /// Wood: moves as a whole.
     Rigid,

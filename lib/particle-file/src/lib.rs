@@ -37,7 +37,7 @@ mod table_text;
 mod worth;
 mod write;
 
-pub use bits::{BitGrid, BitsRef};
+pub use bits::{BitGrid, Bits, BitsRef};
 pub use error::Error;
 pub use folder::{RUN_MARK, by_time, file_of_run, in_folder, states_of_run};
 pub use header::{Block, Header, Kind, Material, Provenance};

@@ -62,19 +62,15 @@ impl ParticleFile {
             true => "standard input".to_owned(),
             false => path.display().to_string(),
         };
-        Self::named(name, bytes)
-    }
-
-    fn named(file: String, bytes: io::Result<Mapped>) -> Result<Self, Error> {
         match bytes {
-            Ok(bytes) => Self::from_mapped(file, bytes),
-            Err(reason) => Err(Error::unreadable(file, &reason)),
+            Ok(bytes) => Self::from_mapped(name, bytes),
+            Err(reason) => Err(Error::unreadable(name, &reason)),
         }
     }
 
     /// Reads a file that lies in memory.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        Self::named("bytes in memory".into(), Mapped::copy_of(bytes))
+        Self::of_input("bytes in memory".as_ref(), Mapped::copy_of(bytes))
     }
 
     /// Reads an input that was mapped already, e.g. to see what it is; `name` is for
@@ -133,7 +129,7 @@ impl ParticleFile {
             .ok_or_else(|| self.missing(format!("block number {index}")))?;
         let words = self.values_of(index)?;
         let dims = layout::usize_dims(block.dims);
-        match dims.and_then(|dims| BitsRef::new(dims, words)) {
+        match dims.and_then(|dims| BitsRef::from_words(dims, words)) {
             Some(bits) if bits.count() == block.count => Ok((block, bits)),
             _ => Err(self.corrupt(format!(
                 "says that block '{}' has {} voxels, which is not what its bits say",

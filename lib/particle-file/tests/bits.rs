@@ -52,7 +52,7 @@ fn every_way_to_look_at_a_grid_agrees() {
             assert_eq!(&counts, layers, "nx {nx} axis {axis}");
         }
         assert_eq!((grid.words(), grid.view().words()), (&*all, &*all));
-        assert_eq!(BitsRef::new(dims, &all), Some(grid.view()));
+        assert_eq!(BitsRef::from_words(dims, &all), Some(grid.view()));
         assert_eq!(BitGrid::from_words(dims, all), Some(grid));
     }
 }
@@ -89,5 +89,5 @@ fn bits_behind_a_row_are_cleared_or_refused() {
         assert_eq!(BitGrid::from_fn(dims, |_, _, _| true).count(), 0);
         assert!(BitGrid::from_words(dims, Vec::new()).is_some());
     }
-    assert!(BitsRef::new([usize::MAX; 3], &[]).is_none());
+    assert!(BitsRef::from_words([usize::MAX; 3], &[]).is_none());
 }

@@ -160,10 +160,14 @@ fn a_number_that_is_not_finite_is_found_by_row() {
     let mut position = vec![0.5_f32; 3 * 40_000];
     position[3 * 30_001 + 1] = f32::NAN;
     position[3 * 35_000] = f32::INFINITY;
+    let volume = vec![1.0_f32; 40_000];
     let draft = Draft::new(header).column("position", 3, &position);
-    let file = ParticleFile::from_bytes(&written(&draft)).unwrap();
+    let file = written(&draft.column("volume", 1, &volume));
+    let file = ParticleFile::from_bytes(&file).unwrap();
     let said = file.check().unwrap_err().to_string();
     assert!(said.contains("row 30001 of column 'position'"), "{said}");
+    let said = file.liquid().unwrap_err().to_string();
+    assert!(said.contains("a material point 30001 at"), "{said}");
 }
 
 #[test]

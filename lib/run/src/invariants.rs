@@ -115,7 +115,7 @@ impl<'a> Reachable<'a> {
         let is_top = scene.top.is_some_and(|i| scene.bodies[i].name == body.name)
             || matches!(body.motion, Motion::Clamped);
         let surface = if is_top { 0 } else { block.dims()[1] - 1 };
-        let wood = BitsRef::new(block.dims(), block.bits())?;
+        let wood = BitsRef::from_words(block.dims(), block.bits())?;
         let open = open_voids(wood, Axis::Y, surface);
         Some(Self { block, open })
     }

@@ -129,23 +129,16 @@ fn guess_code(value: f64) -> u8 {
 /// Gathers bit 0 of each code into `wood`, bit 1 into `adhesive`, 64 pixels a word, and
 /// returns the union of the codes.
 fn pack(mut codes: impl Iterator<Item = u8>, wood: &mut [u64], adhesive: &mut [u64]) -> u8 {
-    const LOW_BITS: u64 = 0x0101_0101_0101_0101;
-    // Multiplying moves bit 0 of byte k to bit 56 + k; no two terms meet, so none carries.
-    const GATHER: u64 = 0x0102_0408_1020_4080;
-    let mut union = 0_u64;
+    let mut union = 0;
     for (wood, adhesive) in wood.iter_mut().zip(adhesive) {
-        let mut block = [0_u8; 64];
-        let coded = block.iter_mut().zip(codes.by_ref());
-        coded.for_each(|(slot, code)| *slot = code);
         (*wood, *adhesive) = (0, 0);
-        for (i, eight) in block.as_chunks::<8>().0.iter().enumerate() {
-            let codes = u64::from_le_bytes(*eight);
-            union |= codes;
-            *wood |= ((codes & LOW_BITS).wrapping_mul(GATHER) >> 56) << (8 * i);
-            *adhesive |= ((codes >> 1 & LOW_BITS).wrapping_mul(GATHER) >> 56) << (8 * i);
+        for (i, code) in codes.by_ref().take(64).enumerate() {
+            union |= code;
+            *wood |= u64::from(code & WOOD) << i;
+            *adhesive |= u64::from(code >> 1 & 1) << i;
         }
     }
-    union.to_le_bytes().into_iter().fold(0, |a, b| a | b)
+    union
 }
 
 #[cfg(test)]

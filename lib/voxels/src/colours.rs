@@ -14,12 +14,6 @@ pub(crate) const OPAQUE: u8 = 255;
 /// What the stored values of a page show.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Shown {
-    /// Greys, of values of at most 8 bits.
-    Grey {
-        bits: u16,
-        /// 0 is white.
-        inverted: bool,
-    },
     /// The colours of 0, 1, ...
     Palette(Vec<Colour>),
     /// Anything else, by its code in TIFF's tag 262.
@@ -31,45 +25,37 @@ impl Shown {
     pub(crate) const GREY: Self = Self::Other(1);
     pub(crate) const RGB: Self = Self::Other(2);
 
+    /// Greys, of values of at most 8 bits; where it is `inverted` 0 is white.
+    pub(crate) fn grey(bits: u16, inverted: bool) -> Self {
+        let level = |value: usize| (255 * value / ((1 << bits) - 1)) as u8;
+        let levels = (0..1 << bits).map(level);
+        Self::opaque(levels.map(|level| [if inverted { 255 - level } else { level }; 3]))
+    }
+
     pub(crate) fn opaque(colours: impl Iterator<Item = [u8; 3]>) -> Self {
         Self::Palette(colours.map(|[r, g, b]| [r, g, b, OPAQUE]).collect())
     }
 
-    /// How many values show a known colour.
-    fn len(&self) -> usize {
+    /// The colours of 0, 1, ..., as far as they are known.
+    fn colours(&self) -> &[Colour] {
         match self {
-            Self::Grey { bits, .. } => 1 << bits,
-            Self::Palette(colours) => colours.len(),
-            Self::Other(_) => 0,
-        }
-    }
-
-    fn colour(&self, value: usize) -> Option<Colour> {
-        match self {
-            Self::Grey { inverted, .. } => {
-                let level = (255 * value / (self.len() - 1)) as u8;
-                let level = if *inverted { 255 - level } else { level };
-                (value < self.len()).then_some([level, level, level, OPAQUE])
-            }
-            Self::Palette(colours) => colours.get(value).copied(),
-            Self::Other(_) => None,
+            Self::Palette(colours) => colours,
+            Self::Other(_) => &[],
         }
     }
 
     /// Whether every value that both know shows the same: unused ends of palettes may be left out.
     fn agrees(&self, other: &Self) -> bool {
-        let shared = self.len().min(other.len());
-        self == other || shared > 0 && (0..shared).all(|v| self.colour(v) == other.colour(v))
+        let pairs = || self.colours().iter().zip(other.colours());
+        self == other || pairs().len() > 0 && pairs().all(|(own, other)| own == other)
     }
 
     /// The first colours, as labels.
     pub(crate) fn first(&self) -> String {
         const MOST: usize = 4;
-        let mut labels: Vec<String> = (0..self.len().min(MOST))
-            .filter_map(|value| self.colour(value))
-            .map(|[r, g, b, _]| format!("{r}:{g}:{b}"))
-            .collect();
-        if self.len() > MOST {
+        let first = self.colours().iter().take(MOST);
+        let mut labels: Vec<String> = first.map(|[r, g, b, _]| format!("{r}:{g}:{b}")).collect();
+        if self.colours().len() > MOST {
             labels.push("...".into());
         }
         labels.join(", ")
@@ -77,11 +63,10 @@ impl Shown {
 
     /// The colours, as red, green and blue, in place of the stored values of a page.
     pub(crate) fn in_place_of(&self, page: &[u8]) -> Result<Vec<u8>, String> {
-        let colours: Vec<_> = (0..=255).map(|value| self.colour(value)).collect();
         let mut rgb = Vec::with_capacity(3 * page.len());
         for &value in page {
-            match colours[usize::from(value)] {
-                Some([r, g, b, OPAQUE]) => rgb.extend([r, g, b]),
+            match self.colours().get(usize::from(value)) {
+                Some(&[r, g, b, OPAQUE]) => rgb.extend([r, g, b]),
                 Some(_) => {
                     return Err(format!(
                         "the colour of its value {value} is transparent, which is no label: save it without transparency"
@@ -90,7 +75,7 @@ impl Shown {
                 None => {
                     return Err(format!(
                         "it holds {value}, but its palette has {} colours",
-                        self.len()
+                        self.colours().len()
                     ));
                 }
             }
@@ -109,12 +94,12 @@ pub(crate) fn unlike(
     let mut longest = 0;
     let odd = (0..shown.len()).find(|&i| {
         let agrees = shown[i].agrees(&shown[longest]);
-        if agrees && shown[i].len() > shown[longest].len() {
+        if agrees && shown[i].colours().len() > shown[longest].colours().len() {
             longest = i;
         }
         !agrees
     });
-    let coloured = sample == Sample::U8 && shown.iter().all(|shown| shown.len() > 0);
+    let coloured = sample == Sample::U8 && shown.iter().all(|shown| !shown.colours().is_empty());
     match odd.map(|odd| [longest, odd]) {
         Some(unlike) if !coloured => Err(unlike),
         unlike => Ok(unlike),
@@ -128,7 +113,7 @@ mod tests {
     #[test]
     fn palettes_without_their_unused_ends_agree() {
         let p = |greys: &[u8]| Arc::new(Shown::opaque(greys.iter().map(|&g| [g; 3])));
-        let grey = |bits, inverted| Arc::new(Shown::Grey { bits, inverted });
+        let grey = |bits, inverted| Arc::new(Shown::grey(bits, inverted));
         let other = |code| Arc::new(Shown::Other(code));
         for (shown, right) in [
             (vec![p(&[0, 9]), p(&[0, 9, 7]), p(&[0])], None),

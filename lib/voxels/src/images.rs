@@ -1,6 +1,6 @@
 //! Slices as BMP, PNG and JPEG, a file for each page.
 
-use std::io::{BufRead, BufReader, Seek};
+use std::io::Cursor;
 use std::iter;
 use std::sync::Arc;
 
@@ -73,7 +73,7 @@ fn read(
     let kind = kind.ok_or("it is no BMP, PNG or JPEG as the other slices are")?;
     let (format, shown) = match kind {
         Kind::Bmp => bmp::read(source, page)?,
-        Kind::Png => png(BufReader::new(source.reader_from(0)?), page)?,
+        Kind::Png => png(&source.window(0, source.len() as usize)?, page)?,
         _ => jpeg(&source.window(0, source.len() as usize)?, page)?,
     };
     Ok((kind, format, shown))
@@ -109,8 +109,8 @@ fn ends_as_jpeg(bytes: &[u8]) -> bool {
 }
 
 /// Stored samples as they are: no palette, no gamma, no scaling of fewer than 8 bits.
-fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Read {
-    let mut decoder = png::Decoder::new(content);
+fn png(bytes: &[u8], page: Option<&mut Vec<u8>>) -> Read {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(damaged)?;
     let info = reader.info();
@@ -157,10 +157,7 @@ fn png_shown(info: &png::Info) -> Shown {
                 .collect(),
         ),
         (_, 16) => Shown::GREY,
-        (_, bits) => Shown::Grey {
-            bits,
-            inverted: false,
-        },
+        (_, bits) => Shown::grey(bits, false),
     }
 }
 

@@ -6,7 +6,8 @@ use std::str::FromStr;
 use crate::label::Label;
 
 /// What a voxel holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString)]
+#[strum(serialize_all = "lowercase")]
 pub enum Phase {
     /// Air.
     Void,
@@ -24,17 +25,10 @@ impl Phase {
         let (name, rest) =
             (part.split_once('=')).ok_or_else(|| format!("'{part}' is not PHASE={example}"))?;
         let name = name.trim();
-        let known = Self::ALL.into_iter().find(|p| p.to_string() == name);
-        let phase = known.ok_or_else(|| {
+        let phase = name.parse().map_err(|_| {
             format!("'{name}' is not a phase; accepted are void, wood and adhesive")
         })?;
         Ok((phase, rest))
-    }
-}
-
-impl fmt::Display for Phase {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(["void", "wood", "adhesive"][*self as usize])
     }
 }
 

@@ -168,18 +168,8 @@ pub(crate) fn unpack_bits(row: &[u8], bits: usize, width: usize) -> impl Iterato
 
 /// From one byte order to the native one.
 pub(crate) fn to_native(bytes: &mut [u8], sample: Sample, big_endian: bool) {
-    // The length as a constant lets the compiler use byte shuffles.
-    fn swap<const N: usize>(bytes: &mut [u8]) {
-        let samples = bytes.as_chunks_mut::<N>().0;
-        samples.iter_mut().for_each(|s| s.reverse());
-    }
-    if big_endian == cfg!(target_endian = "big") {
-        return;
-    }
-    match sample.bytes() {
-        2 => swap::<2>(bytes),
-        4 => swap::<4>(bytes),
-        8 => swap::<8>(bytes),
-        _ => {}
+    if big_endian != cfg!(target_endian = "big") {
+        let samples = bytes.chunks_exact_mut(sample.bytes());
+        samples.for_each(<[u8]>::reverse);
     }
 }

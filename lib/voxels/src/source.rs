@@ -97,7 +97,7 @@ impl Source {
         Ok(bytes)
     }
 
-    /// The content from its first byte, e.g. to hash it.
+    /// The content from its first byte, e.g. to hash it; not from two threads at a time.
     ///
     /// # Errors
     /// The system's reason when the file cannot be opened again.
@@ -105,13 +105,10 @@ impl Source {
         self.reader_from(0)
     }
 
-    /// The content from byte `at`.
-    pub(crate) fn reader_from(&self, at: u64) -> io::Result<impl Read + Seek + use<>> {
-        Ok(Content {
-            file: self.file()?,
-            at,
-            len: self.len,
-        })
+    /// The content from byte `at`, as [`Source::reader`].
+    pub(crate) fn reader_from(&self, at: u64) -> io::Result<File> {
+        let mut file = self.file()?.try_clone()?;
+        file.seek(SeekFrom::Start(at)).map(|_| file)
     }
 }
 
@@ -124,33 +121,6 @@ fn regular_file(path: &Path) -> io::Result<File> {
         meta if meta.is_dir() => Err(io::Error::other("it is a folder")),
         meta if meta.is_file() => Ok(file),
         _ => spool(file, |head| Kind::of(head).is_some()),
-    }
-}
-
-/// A position of its own in a file that others may read too.
-struct Content {
-    file: Arc<File>,
-    at: u64,
-    len: u64,
-}
-
-impl Seek for Content {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        let at = match to {
-            SeekFrom::Start(at) => Some(at),
-            SeekFrom::End(by) => self.len.checked_add_signed(by),
-            SeekFrom::Current(by) => self.at.checked_add_signed(by),
-        };
-        self.at = at.ok_or_else(|| io::Error::other("a position before the file"))?;
-        Ok(self.at)
-    }
-}
-
-impl Read for Content {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let n = self.file.read_at(buffer, self.at)?;
-        self.at += n as u64;
-        Ok(n)
     }
 }
 

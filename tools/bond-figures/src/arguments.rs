@@ -7,8 +7,8 @@ use units::{Axis, Pressure};
 
 use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, name, number, one_of,
-    part, png, position, run, share,
+    Extent, Target, cell, experiment, given, labelled, name, number, one_of, part, png, position,
+    run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -88,7 +88,7 @@ pub(crate) enum Figure {
         #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
         files: Vec<Labelled>,
         /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
-        #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of(SHOWN))]
+        #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of::<Shown>())]
         show: Shown,
         #[command(flatten)]
         picture: Picture,
@@ -189,7 +189,7 @@ pub(crate) struct SliceArgs {
           value_parser = position)]
     pub(crate) at: Position,
     /// Colour the adhesive: plain, or by its pressure
-    #[arg(long, default_value = "plain", value_parser = one_of(COLOURINGS))]
+    #[arg(long, default_value = "plain", value_parser = one_of::<Colouring>())]
     pub(crate) colour: Colouring,
     /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
     /// or voxels
@@ -224,10 +224,10 @@ pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of an experiment; may be repeated
     #[arg(long, value_name = "ADHESIVE=CSV", required_unless_present = "run",
           value_parser = given(experiment))]
-    experiment: Vec<Case>,
+    pub(crate) experiment: Vec<Case>,
     /// Table of `wp-metrics` of a run's final state; may be repeated
     #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = given(run))]
-    run: Vec<Case>,
+    pub(crate) run: Vec<Case>,
     /// Write errors (needs tables of `wp-metrics --finer`): WP, EP and pressure extrapolated to zero
     /// cell size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
@@ -246,11 +246,4 @@ pub(crate) struct Table2Args {
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) print: Print,
-}
-
-impl Table2Args {
-    /// Experiments, then runs.
-    pub(crate) fn cases(&self) -> Vec<Case> {
-        self.experiment.iter().chain(&self.run).cloned().collect()
-    }
 }

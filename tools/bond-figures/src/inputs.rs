@@ -62,20 +62,17 @@ impl Inputs {
         Self::new(runs)
     }
 
-    /// As [`Inputs::new`], and the cases with their files in place.
-    pub(crate) fn of_cases(cases: Vec<Case>) -> Result<(Self, Vec<Case>), Failure> {
+    /// As [`Inputs::new`], of the files of cases, which are put in place.
+    pub(crate) fn of_cases(cases: &mut [Case]) -> Result<Self, Failure> {
         let file = |case: &Case| Labelled {
             label: case.name.clone(),
             path: case.path.clone(),
         };
         let inputs = Self::new(cases.iter().map(file).collect())?;
-        let placed = cases.into_iter().zip(&inputs.files);
-        let placed = placed.map(|(case, file)| Case {
-            path: file.path.clone(),
-            ..case
-        });
-        let cases = placed.collect();
-        Ok((inputs, cases))
+        for (case, file) in cases.iter_mut().zip(&inputs.files) {
+            case.path.clone_from(&file.path);
+        }
+        Ok(inputs)
     }
 
     /// The same with a mark on labels of files of runs that have not closed or are not sound.

@@ -144,7 +144,8 @@ fn movie(a: &MovieArgs) -> Result<(), Failure> {
 }
 
 fn table2(a: &Table2Args) -> Result<(), Failure> {
-    let (inputs, cases) = Inputs::of_cases(a.cases())?;
+    let mut cases = [&a.experiment[..], &a.run].concat();
+    let inputs = Inputs::of_cases(&mut cases)?;
     let pictures = a.picture.iter().map(|target| &target.output);
     inputs.keep_from([&a.output].into_iter().chain(&a.errors).chain(pictures))?;
     let table = Table2::read(&cases).map_err(failure)?.with_paper(a.paper);

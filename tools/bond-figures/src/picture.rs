@@ -3,7 +3,7 @@
 use clap::Args;
 use figures::{Direction, Page, Wood};
 
-use crate::values::{Target, WOOD, degrees, given, number, one_of, width};
+use crate::values::{Target, degrees, given, number, one_of, width};
 
 #[derive(Args)]
 pub(crate) struct Picture {
@@ -39,7 +39,7 @@ impl Print {
 #[derive(Args)]
 pub(crate) struct Look {
     /// How much of the wood is shown: none, the half away from the viewer, or all
-    #[arg(long, default_value = "cut", value_parser = one_of(WOOD))]
+    #[arg(long, default_value = "cut", value_parser = one_of::<Wood>())]
     pub(crate) wood: Wood,
     /// Degrees to look from beside the front, about the axis across the bond
     #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().turn, allow_hyphen_values = true,

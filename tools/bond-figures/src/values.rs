@@ -6,38 +6,16 @@ use std::str::FromStr;
 
 use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use cli::Output;
-use figures::{Case, Colouring, Drawing, Error, Labelled, Page, Position, Shown, Wood};
+use figures::{Case, Drawing, Error, Labelled, Page, Position};
+use strum::VariantNames;
 use units::{Length, si};
 
-/// How to colour the adhesive.
-pub(crate) const COLOURINGS: &[(&str, Colouring)] = &[
-    ("plain", Colouring::Plain),
-    ("pressure", Colouring::Pressure),
-];
-/// How much of the wood is shown.
-pub(crate) const WOOD: &[(&str, Wood)] = &[
-    ("hidden", Wood::Hidden),
-    ("cut", Wood::Cut),
-    ("whole", Wood::Whole),
-];
-/// What of penetration is shown.
-pub(crate) const SHOWN: &[(&str, Shown)] = &[
-    ("depth", Shown::Depth),
-    ("wetted", Shown::Wetted),
-    ("filled", Shown::Filled),
-];
-
 /// A parser of what has a name.
-pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
-    named: &'static [(&'static str, T)],
-) -> impl TypedValueParser<Value = T> {
-    let names = named.iter().map(|(name, _)| *name);
-    PossibleValuesParser::new(names).try_map(|text| {
-        let found = named.iter().find(|(name, _)| *name == text);
-        found
-            .map(|(_, value)| *value)
-            .ok_or("there is no such value")
-    })
+pub(crate) fn one_of<T>() -> impl TypedValueParser<Value = T>
+where
+    T: VariantNames + FromStr<Err = strum::ParseError> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(T::VARIANTS).try_map(|name| name.parse())
 }
 
 /// A picture's file, and how it is rendered.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use cli::Failure;
-use particle_file::{Block, Element, Kind, Material, ParticleFile, Provenance, Section};
+use particle_file::{Block, Element, Kind, ParticleFile, Provenance, Section};
 
 /// What a file holds and how it was made, one fact per line.
 pub fn describe(file: &ParticleFile) -> Result<String, Failure> {
@@ -46,18 +46,15 @@ fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
 }
 
 fn write_block(out: &mut String, block: &Block) -> std::fmt::Result {
-    let material = match block.material {
-        Material::Rigid => "rigid",
-        Material::Adhesive => "adhesive",
-    };
     let [nx, ny, nz] = block.dims;
     let [x, y, z] = block.origin_m.map(um);
     let all = block.dims.iter().map(|&n| n as f64).product::<f64>();
     writeln!(
         out,
-        "block       {}: {material}, {} of {nx} x {ny} x {nz} voxels ({:.2} %) of {} um \
+        "block       {}: {}, {} of {nx} x {ny} x {nz} voxels ({:.2} %) of {} um \
          from {x}, {y}, {z} um",
         block.name,
+        block.material,
         block.count,
         100.0 * block.count as f64 / all,
         um(block.voxel_m),

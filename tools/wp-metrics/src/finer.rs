@@ -77,8 +77,7 @@ fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<String> {
 
 /// Whether two states have the same wood, wherever it is now.
 fn same_bond<'a>(a: &State<'a>, b: &State<'a>) -> bool {
-    let wood =
-        |state| State::wood_blocks(state).map(|w| (w.bits.dims(), w.bits.words(), w.voxel_m));
+    let wood = |state| State::wood_blocks(state).map(|w| (w.bits, w.voxel_m));
     wood(a).eq(wood(b))
 }
 

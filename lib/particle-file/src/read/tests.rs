@@ -3,7 +3,7 @@
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::*;
-use crate::{BitGrid, Draft, Kind, Material};
+use crate::{Draft, Kind};
 
 fn signed(mut bytes: Vec<u8>) -> Result<ParticleFile, Error> {
     let length: [u8; 4] = bytes[12..16].try_into().unwrap();
@@ -25,50 +25,6 @@ fn written(draft: impl FnOnce(Draft) -> Draft) -> Vec<u8> {
     let mut bytes = Vec::new();
     draft(Draft::new(header)).write_to(&mut bytes).unwrap();
     bytes
-}
-
-fn use_all(file: &ParticleFile) {
-    let _ = (file.check(), file.sum());
-    let _ = file.liquid().is_ok();
-    for (index, block) in file.header().blocks.iter().enumerate() {
-        if let Ok((_, bits)) = file.block(index) {
-            assert_eq!(bits.count(), block.count);
-            bits.counts_along(0);
-        }
-    }
-}
-
-#[test]
-fn forged_headers_are_refused_or_harmless() {
-    let bits = BitGrid::from_fn([70, 2, 2], |x, y, z| (x + y + z) % 2 == 0);
-    let mut sound = Vec::new();
-    Draft::new(Header::new(Kind::Bond, 1e-6, 1, [0.0; 3], [1e-4; 3]))
-        .block(
-            Block::new("adhesive", Material::Adhesive, [0.0; 3], 1e-6, &bits),
-            &bits,
-        )
-        .column("position", 3, &[1.0_f32; 6])
-        .column("volume", 1, &[1.0_f32; 2])
-        .blob("notes", b"abc")
-        .write_to(&mut sound)
-        .unwrap();
-    let header_len = Preamble::from_file(&sound).unwrap().header_len;
-    let (mut refused, mut accepted) = (0, 0);
-    for at in 12..PREAMBLE + header_len {
-        for value in [0x00, 0x01, 0x02, 0x07, 0x40, 0x7f, 0x80, 0xff] {
-            let mut forged = sound.clone();
-            forged[at] = value;
-            match signed(forged) {
-                Err(_) => refused += 1,
-                Ok(file) => {
-                    accepted += 1;
-                    use_all(&file);
-                }
-            }
-        }
-    }
-    println!("{refused} refused, {accepted} harmless");
-    assert!(refused > accepted, "{refused} refused, {accepted} accepted");
 }
 
 #[test]

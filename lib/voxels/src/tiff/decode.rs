@@ -7,7 +7,7 @@ use std::os::unix::fs::FileExt;
 use ::tiff::decoder::{Decoder, Limits};
 use ::tiff::tags::Tag;
 
-use super::layout::{Cut, PageLayout};
+use super::layout::PageLayout;
 use crate::sample::{Sample, to_native, unpack_bits};
 
 /// Reads the page into `page`, which is empty: rows without padding, channels interleaved, one sample per
@@ -40,139 +40,88 @@ pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Resu
     Ok(())
 }
 
-/// Decodes a plane with the `tiff` crate, from a copy of its chunks in memory under a
-/// directory of our own that calls the samples plain greys: whatever the original says about
+/// Decodes a plane with the `tiff` crate, chunk by chunk, from a copy in memory under a directory of our
+/// own that calls the samples plain greys in one strip: whatever the original says about
 /// photometric interpretation, colour maps or planes cannot touch the stored values.
 ///
-/// Tiles are handed over as the strips of a high page and put in their places here: the
-/// crate reads tiles row by row and gives up on LZW codes that end with a row
-/// (<https://github.com/image-rs/image-tiff/issues/395>).
+/// Tiles are strips of their own, too: the crate reads tiles row by row and
+/// gives up on LZW codes that end with a row (<https://github.com/image-rs/image-tiff/issues/395>).
 fn decode_plane(
     file: &File,
     layout: &PageLayout,
     chunks: &[(u64, u64)],
     plane: &mut [u8],
 ) -> Result<(), String> {
-    let stored: Vec<(u64, u64)> = (chunks.iter().copied())
-        .filter(|&(_, bytes)| !layout.is_left_out(bytes))
-        .collect();
-    if stored.is_empty() {
-        return Ok(());
-    }
-    let bytes = as_grey_tiff(file, layout, &stored)?;
-    // The sizes are checked; the crate's own limits would refuse large pages.
-    let decoder = Decoder::new(Cursor::new(bytes)).map(|d| d.with_limits(Limits::unlimited()));
-    let decode = |pixels: &mut [u8]| {
-        decoder
-            .and_then(|mut decoder| decoder.read_image_bytes(pixels))
-            .map_err(|e| {
-                format!("its pixels do not decode ({e}): the file is truncated or corrupt")
-            })
-    };
-    let Some((tile_row, tile)) = layout.tile_bytes() else {
-        return decode(plane);
-    };
-    let mut pixels = vec![0; tile * chunks.len()];
-    let mut left = stored.len();
-    decode(&mut pixels[..tile * left])?;
-    // Each to its place, from the last.
-    for (i, &(_, bytes)) in chunks.iter().enumerate().rev() {
-        if layout.is_left_out(bytes) {
-            pixels[tile * i..tile * (i + 1)].fill(0);
-        } else {
-            left -= 1;
-            pixels.copy_within(tile * left..tile * (left + 1), tile * i);
-        }
-    }
     let row = plane.len() / layout.format.height;
-    let across = row.div_ceil(tile_row);
-    let rows_of_tiles = plane.chunks_mut(row * (tile / tile_row));
-    for (rows, tiles) in rows_of_tiles.zip(pixels.chunks(tile * across)) {
-        for (y, row) in rows.chunks_exact_mut(row).enumerate() {
-            for (part, tile) in row.chunks_mut(tile_row).zip(tiles.chunks(tile)) {
-                part.copy_from_slice(&tile[y * tile_row..][..part.len()]);
-            }
+    let chunk_row = layout.row_bytes(layout.chunk[0]).unwrap_or_default();
+    let across = row.div_ceil(chunk_row);
+    let mut pixels = Vec::new();
+    for (i, &chunk) in chunks.iter().enumerate() {
+        if layout.is_left_out(chunk.1) {
+            continue;
+        }
+        let size = [layout.chunk[0], layout.chunk_rows(i)];
+        pixels.resize(chunk_row * size[1], 0);
+        decode(file, layout, chunk, size, &mut pixels)?;
+        let rows = plane.chunks_exact_mut(row);
+        let rows = rows.skip(i / across * layout.chunk[1]);
+        for (row, stored) in rows.zip(pixels.chunks(chunk_row)) {
+            let part = row
+                .chunks_mut(chunk_row)
+                .nth(i % across)
+                .unwrap_or_default();
+            part.copy_from_slice(&stored[..part.len()]);
         }
     }
     Ok(())
 }
 
-/// A BigTIFF of one page with these chunks as strips.
-fn as_grey_tiff(
+/// Decodes a chunk of so many columns and rows, as the only strip of a BigTIFF of one page.
+fn decode(
     file: &File,
     layout: &PageLayout,
-    chunks: &[(u64, u64)],
-) -> Result<Vec<u8>, String> {
+    (offset, stored): (u64, u64),
+    [width, height]: [usize; 2],
+    pixels: &mut [u8],
+) -> Result<(), String> {
     const LONG8: u64 = 16;
-    let number = |value: u64, width: usize| match layout.big_endian {
-        true => value.to_be_bytes()[8 - width..].to_vec(),
-        false => value.to_le_bytes()[..width].to_vec(),
-    };
-    let n = chunks.len() as u64;
-    // Header (16), count (8), entries (20 each), next (8), offsets, lengths, chunks.
-    let mut tags = tags(layout, n);
-    let entries = tags.len() as u64 + 2;
-    let arrays = 16 + 8 + 20 * entries + 8;
-    let mut at = arrays + 16 * n;
-    // One chunk's offset and length stand in the entry itself, as the format demands.
-    let one = |value, place| if n == 1 { value } else { place };
-    tags.push((Tag::StripOffsets.to_u16(), n, one(at, arrays)));
-    tags.push((
-        Tag::StripByteCounts.to_u16(),
-        n,
-        one(chunks[0].1, arrays + 8 * n),
-    ));
-    tags.sort_unstable();
-    let mut bytes = if layout.big_endian { b"MM" } else { b"II" }.to_vec();
-    for (value, width) in [(43, 2), (8, 2), (0, 2), (16, 8), (entries, 8)] {
-        bytes.extend(number(value, width));
-    }
-    for (tag, count, value) in tags {
-        for (value, width) in [(tag.into(), 2), (LONG8, 2), (count, 8), (value, 8)] {
-            bytes.extend(number(value, width));
-        }
-    }
-    bytes.extend(number(0, 8));
-    for &(_, stored) in chunks {
-        bytes.extend(number(at, 8));
-        at += stored;
-    }
-    for &(_, stored) in chunks {
-        bytes.extend(number(stored, 8));
-    }
-    for &(offset, stored) in chunks {
-        let start = bytes.len();
-        bytes.resize(start + stored as usize, 0);
-        let read = file.read_exact_at(&mut bytes[start..], offset);
-        read.map_err(|e| e.to_string())?;
-    }
-    Ok(bytes)
-}
-
-/// The tags of a page of so many `chunks` as strips but for their places: number, count and value.
-fn tags(layout: &PageLayout, chunks: u64) -> Vec<(u16, u64, u64)> {
     let sample_format = match layout.format.sample {
         Sample::U8 | Sample::U16 | Sample::U32 | Sample::U64 => 1,
         Sample::I8 | Sample::I16 | Sample::I32 | Sample::I64 => 2,
         Sample::F32 | Sample::F64 => 3,
     };
-    let (width, height) = (layout.format.width as u64, layout.format.height as u64);
-    let (width, height, rows) = match layout.cut {
-        Cut::Strips(rows) => (width, height, rows),
-        Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks, h),
-    };
-    let tags = [
-        (Tag::ImageWidth, width),
-        (Tag::ImageLength, height),
+    // Header (16), count (8), entries (20 each), next (8), the chunk.
+    const ENTRIES: u64 = 11;
+    let at = 16 + 8 + 20 * ENTRIES + 8;
+    let tags: [(Tag, u64); ENTRIES as usize] = [
+        (Tag::ImageWidth, width as u64),
+        (Tag::ImageLength, height as u64),
         (Tag::BitsPerSample, layout.bits.into()),
         (Tag::Compression, layout.compression as u64),
         (Tag::PhotometricInterpretation, 1), // black is zero
+        (Tag::StripOffsets, at),
         (Tag::SamplesPerPixel, layout.samples_side_by_side() as u64),
-        (Tag::RowsPerStrip, rows.into()),
+        (Tag::RowsPerStrip, height as u64),
+        (Tag::StripByteCounts, stored),
         (Tag::Predictor, layout.predictor.into()),
         (Tag::SampleFormat, sample_format),
     ];
-    tags.map(|(tag, value)| (tag.to_u16(), 1, value)).to_vec()
+    let entry =
+        |(tag, value): (Tag, u64)| [(tag.to_u16().into(), 2), (LONG8, 2), (1, 8), (value, 8)];
+    let head = [(43, 2), (8, 2), (0, 2), (16, 8), (ENTRIES, 8)].into_iter();
+    let numbers = head.chain(tags.into_iter().flat_map(entry)).chain([(0, 8)]);
+    let mut bytes = if layout.big_endian { b"MM" } else { b"II" }.to_vec();
+    numbers.for_each(|(value, width)| match layout.big_endian {
+        true => bytes.extend(&value.to_be_bytes()[8 - width..]),
+        false => bytes.extend(&value.to_le_bytes()[..width]),
+    });
+    bytes.resize((at + stored) as usize, 0);
+    let read = file.read_exact_at(&mut bytes[at as usize..], offset);
+    read.map_err(|e| e.to_string())?;
+    // The sizes are checked; the crate's own limits would refuse large pages.
+    let decoder = Decoder::new(Cursor::new(bytes)).map(|d| d.with_limits(Limits::unlimited()));
+    let decoded = decoder.and_then(|mut decoder| decoder.read_image_bytes(pixels));
+    decoded.map_err(|e| format!("its pixels do not decode ({e}): the file is truncated or corrupt"))
 }
 
 /// Pixels from planes.

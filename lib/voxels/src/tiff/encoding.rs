@@ -64,7 +64,6 @@ impl Compression {
 /// What the values of a page of one channel or of colours show.
 pub(crate) fn shown(page: &Directory, sample: Sample, bits: u16) -> Result<Shown, String> {
     let code = page.uint(Tag::PhotometricInterpretation)?.unwrap_or(1);
-    let inverted = code == 0;
     Ok(match (code, page.uints(Tag::ColorMap)?) {
         (3, Some(map)) => {
             // Some programs write 8 bits of each colour instead of 16.
@@ -73,7 +72,7 @@ pub(crate) fn shown(page: &Directory, sample: Sample, bits: u16) -> Result<Shown
             let colour = |i| [0, 1, 2].map(|c| (map[c * third + i] >> shift) as u8);
             Shown::opaque((0..third).map(colour))
         }
-        (0 | 1, _) if sample == Sample::U8 => Shown::Grey { bits, inverted },
+        (0 | 1, _) if sample == Sample::U8 => Shown::grey(bits, code == 0),
         (code, _) => Shown::Other(code),
     })
 }

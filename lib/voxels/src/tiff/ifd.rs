@@ -16,9 +16,6 @@ use crate::source::Source;
 pub(crate) const IMAGE_DEPTH: Tag = Tag::Unknown(32997);
 pub(crate) const UIC2: Tag = Tag::Unknown(33629);
 
-/// Bytes read at a directory's offset at once: enough for the usual directory whole.
-const WINDOW: usize = 1 << 10;
-
 /// An open file with its byte order and flavour.
 pub(crate) struct Container<'a> {
     source: &'a Source,
@@ -96,17 +93,15 @@ impl<'a> Container<'a> {
             )
         };
         let window = |len| self.source.window(at, len).map_err(|e| e.to_string());
-        let mut bytes = window(WINDOW)?;
-        let count = self.uint(bytes.get(..count_bytes).ok_or_else(truncated)?);
+        let count = window(count_bytes)?;
+        let count = self.uint(count.get(..count_bytes).ok_or_else(truncated)?);
         let size = (usize::try_from(count).ok())
             .and_then(|n| {
                 n.checked_mul(entry_bytes)?
                     .checked_add(count_bytes + offset_bytes)
             })
             .ok_or_else(truncated)?;
-        if size > bytes.len() {
-            bytes = window(size)?;
-        }
+        let bytes = window(size)?;
         let list = bytes.get(count_bytes..size).ok_or_else(truncated)?;
         let (list, next) = list.split_at(size - count_bytes - offset_bytes);
         let mut entries = BTreeMap::new();

@@ -13,15 +13,6 @@ use crate::sample::PageFormat;
 
 const TOO_LARGE: &str = "it declares more pixels than can be counted";
 
-/// How the page is cut into chunks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Cut {
-    /// Rows of a strip.
-    Strips(u32),
-    /// Width and height of a tile.
-    Tiles(u32, u32),
-}
-
 /// A page as it is stored.
 #[derive(Clone, Debug)]
 pub(crate) struct PageLayout {
@@ -36,7 +27,9 @@ pub(crate) struct PageLayout {
     pub(crate) predictor: u16,
     /// Channels are stored one after another instead of interleaved.
     pub(crate) planar: bool,
-    pub(crate) cut: Cut,
+    /// Columns and rows of a chunk; the last strip may have fewer rows.
+    pub(crate) chunk: [usize; 2],
+    tiled: bool,
     pub(crate) big_endian: bool,
     /// Offset and length in bytes of each chunk in the file, plane by plane.
     pub(crate) chunks: Vec<(u64, u64)>,
@@ -75,7 +68,8 @@ impl PageLayout {
             predictor: compression.predictor(first(Tag::Predictor, 1)?, sample, bits)?,
             compression,
             planar: channels > 1 && first(Tag::PlanarConfiguration, 1)? == 2,
-            cut: Cut::Strips(format.height as u32),
+            chunk: size,
+            tiled: false,
             format,
             big_endian: page.is_big_endian(),
             chunks: Vec::new(),
@@ -95,19 +89,19 @@ impl PageLayout {
     fn read_chunks(&mut self, page: &Directory, depth: u64) -> Result<(), String> {
         let side = |tag| {
             let side = page.uint(tag)?.filter(|n| *n > 0 && *n <= 1 << 24);
-            side.map(|n| n as u32)
+            side.map(|n| n as usize)
                 .ok_or("its tiles have no size".to_owned())
         };
         let (offsets, counts) = match page.uints(Tag::TileOffsets)? {
             Some(offsets) => {
-                self.cut = Cut::Tiles(side(Tag::TileWidth)?, side(Tag::TileLength)?);
+                self.chunk = [side(Tag::TileWidth)?, side(Tag::TileLength)?];
+                self.tiled = true;
                 (offsets, Tag::TileByteCounts)
             }
             None => {
                 let rows = page.uint(Tag::RowsPerStrip)?;
-                // At most the page's height, which fits 32 bits.
                 let rows = rows.unwrap_or(u64::MAX).clamp(1, self.format.height as u64);
-                self.cut = Cut::Strips(rows as u32);
+                self.chunk[1] = rows as usize;
                 let offsets = page.uints(Tag::StripOffsets)?;
                 let offsets = offsets.ok_or("it has neither strips nor tiles of pixels")?;
                 (offsets, Tag::StripByteCounts)
@@ -137,7 +131,7 @@ impl PageLayout {
     }
 
     fn cut_into_planes(mut self, depth: usize, file_len: u64) -> Result<Vec<Self>, String> {
-        if self.planes() > 1 || !matches!(self.cut, Cut::Strips(_)) {
+        if self.planes() > 1 || self.tiled {
             return Err("it holds several planes by the tag ImageDepth, in tiles or by colour; accepted are strips of whole pixels: save it with a page for each plane".into());
         }
         let [(offset, stored)] = self.chunks[..] else {
@@ -161,7 +155,7 @@ impl PageLayout {
                 "its tag ImageDepth declares {depth} planes of {bytes} bytes, but {stored} bytes are stored: its size or the file is corrupt"
             ));
         }
-        self.cut = Cut::Strips(self.format.height as u32);
+        self.chunk[1] = self.format.height;
         self.chunks = vec![(offset, bytes)];
         self.check_chunks(file_len)?;
         (0..depth)
@@ -180,46 +174,37 @@ impl PageLayout {
     }
 
     /// Stored bytes of `width` pixels of a plane; rows are padded to whole bytes.
-    fn stored_row_bytes(&self, width: u64) -> Option<u64> {
-        let bits = self.samples_side_by_side() as u64 * u64::from(self.bits);
+    pub(crate) fn row_bytes(&self, width: usize) -> Option<usize> {
+        let bits = self.samples_side_by_side() * usize::from(self.bits);
         Some(width.checked_mul(bits)?.div_ceil(8))
     }
 
     /// Stored bytes of a row and of a plane once decompressed.
     pub(crate) fn plane_bytes(&self) -> Option<(usize, usize)> {
-        let row = usize::try_from(self.stored_row_bytes(self.format.width as u64)?).ok()?;
+        let row = self.row_bytes(self.format.width)?;
         Some((row, row.checked_mul(self.format.height)?))
     }
 
-    /// Bytes of a row of a tile and of a whole tile once decompressed; none for strips.
-    pub(crate) fn tile_bytes(&self) -> Option<(usize, usize)> {
-        let Cut::Tiles(width, _) = self.cut else {
-            return None;
-        };
-        let row = self.stored_row_bytes(width.into())?;
-        Some((row as usize, self.chunk_bytes(0)? as usize))
+    fn chunks_per_plane(&self) -> u64 {
+        let PageFormat { width, height, .. } = self.format;
+        let [columns, rows] = self.chunk;
+        // All are below 2^32.
+        width.div_ceil(columns) as u64 * height.div_ceil(rows) as u64
     }
 
-    fn chunks_per_plane(&self) -> u64 {
-        let [width, height] = [self.format.width, self.format.height].map(|n| n as u64);
-        match self.cut {
-            Cut::Strips(rows) => height.div_ceil(rows.into()),
-            // Both sides are below 2^32.
-            Cut::Tiles(w, h) => width.div_ceil(w.into()) * height.div_ceil(h.into()),
+    /// Rows of chunk `i`; tiles are stored whole, the last strip is not.
+    pub(crate) fn chunk_rows(&self, i: usize) -> usize {
+        let strip = (i as u64 % self.chunks_per_plane()) as usize;
+        match self.tiled {
+            true => self.chunk[1],
+            false => self.chunk[1].min(self.format.height - strip * self.chunk[1]),
         }
     }
 
-    /// Bytes of chunk `i` once decompressed; tiles are stored whole, the last strip is not.
+    /// Bytes of chunk `i` once decompressed.
     fn chunk_bytes(&self, i: usize) -> Option<u64> {
-        let (width, rows) = match self.cut {
-            Cut::Strips(rows) => {
-                let strip = i as u64 % self.chunks_per_plane();
-                let left = self.format.height as u64 - strip * u64::from(rows);
-                (self.format.width as u64, left.min(rows.into()))
-            }
-            Cut::Tiles(w, h) => (w.into(), h.into()),
-        };
-        self.stored_row_bytes(width)?.checked_mul(rows)
+        let bytes = self.row_bytes(self.chunk[0])?;
+        Some(bytes.checked_mul(self.chunk_rows(i))? as u64)
     }
 
     /// Checks that the file can hold what the page declares, and joins strips that follow
@@ -253,7 +238,13 @@ impl PageLayout {
                 follows
             });
         }
-        self.check_tiles()?;
+        let [width, _] = self.chunk;
+        if self.tiled && width * usize::from(self.bits) % 8 != 0 {
+            return Err(format!(
+                "its tiles of {width} pixels of {} bits do not end at whole bytes",
+                self.bits
+            ));
+        }
         let plane = self
             .plane_bytes()
             .and_then(|(_, n)| n.checked_mul(self.planes()));
@@ -265,32 +256,15 @@ impl PageLayout {
             .ok_or(TOO_LARGE.into())
     }
 
-    /// Tiles side by side must end at whole bytes, and all of a plane make a page of a height
-    /// that fits 32 bits.
-    fn check_tiles(&self) -> Result<(), String> {
-        let Cut::Tiles(width, height) = self.cut else {
-            return Ok(());
-        };
-        if u64::from(width) * u64::from(self.bits) % 8 != 0 {
-            return Err(format!(
-                "its tiles of {width} pixels of {} bits do not end at whole bytes",
-                self.bits
-            ));
-        }
-        let rows = u64::from(height).checked_mul(self.chunks_per_plane());
-        rows.filter(|n| *n <= u32::MAX.into()).ok_or(TOO_LARGE)?;
-        Ok(())
-    }
-
     /// Whether a chunk with so many bytes is a tile that its writer left out: all 0. A strip without
     /// bytes is what writers leave that were ended before.
     pub(crate) fn is_left_out(&self, stored: u64) -> bool {
-        stored == 0 && matches!(self.cut, Cut::Tiles(..))
+        stored == 0 && self.tiled
     }
 
     /// Whether the pixels stand in the file as they are.
     pub(crate) fn is_plain(&self) -> bool {
-        self.compression == Compression::None && matches!(self.cut, Cut::Strips(_))
+        self.compression == Compression::None && !self.tiled
     }
 
     /// The layout of plane `k` of planes that follow this page in the file without

@@ -11,7 +11,6 @@ const SHORT: u16 = 3;
 const LONG: u16 = 4;
 const RATIONAL: u16 = 5;
 const LONG8: u16 = 16;
-const ENTRIES: u64 = 14;
 
 /// Writes 8-bit labels as a multi-page TIFF, page by page, to a stream.
 ///
@@ -31,29 +30,20 @@ impl<W: Write> TiffWriter<W> {
     ///
     /// # Errors
     /// Dimensions that TIFF cannot hold, or the failed write.
-    pub fn new(out: W, dims: [usize; 3], voxel_edge: f64, note: &str) -> io::Result<Self> {
-        let layout = Layout::new(dims, voxel_edge, note, false)
-            .filter(|layout| layout.end <= u64::from(u32::MAX))
-            .or_else(|| Layout::new(dims, voxel_edge, note, true));
+    pub fn new(mut out: W, dims: [usize; 3], voxel_edge: f64, note: &str) -> io::Result<Self> {
         let [nx, ny, nz] = dims;
-        let layout = layout.ok_or_else(|| {
-            wrong(format!(
-                "a stack of {nx} x {ny} x {nz} voxels does not fit a TIFF file"
-            ))
-        })?;
-        Self::with_layout(out, &layout)
-    }
-
-    fn with_layout(mut out: W, layout: &Layout) -> io::Result<Self> {
-        out.write_all(&layout.header())?;
-        for z in 0..layout.pages {
-            out.write_all(&layout.directory(z))?;
-        }
-        out.write_all(&layout.values)?;
+        let head = head(dims, voxel_edge, note, false)
+            .or_else(|| head(dims, voxel_edge, note, true))
+            .ok_or_else(|| {
+                wrong(format!(
+                    "a stack of {nx} x {ny} x {nz} voxels does not fit a TIFF file"
+                ))
+            })?;
+        out.write_all(&head)?;
         Ok(Self {
             out,
-            page_bytes: layout.page_bytes,
-            pages_left: layout.pages,
+            page_bytes: nx as u64 * ny as u64,
+            pages_left: nz as u64,
         })
     }
 
@@ -86,121 +76,83 @@ fn wrong(what: String) -> io::Error {
     io::Error::new(ErrorKind::InvalidInput, what)
 }
 
-/// Where everything stands in the file.
-struct Layout {
-    width: u32,
-    height: u32,
-    page_bytes: u64,
-    pages: u64,
-    big: bool,
-    /// Pixels per micrometre as a fraction, then the description: what all directories point to.
-    values: Vec<u8>,
-    description: u64,
-    /// Byte at which the values begin, behind the directories.
-    values_at: u64,
-    /// Bytes of the whole file; it ends with the pixels.
-    end: u64,
-}
-
-impl Layout {
-    fn new(dims: [usize; 3], voxel_edge: f64, note: &str, big: bool) -> Option<Self> {
-        let side = |n: usize| u32::try_from(n).ok().filter(|n| *n > 0);
-        let (width, height, pages) = (side(dims[0])?, side(dims[1])?, u64::from(side(dims[2])?));
-        let page_bytes = u64::from(width) * u64::from(height);
-        let edge_um = micrometres(voxel_edge);
-        let line_end = if note.is_empty() { "" } else { "\n" };
-        let description = format!(
-            "ImageJ=1.11a\nimages={pages}\nslices={pages}\nunit=um\nspacing={edge_um}\nloop=false\n{note}{line_end}\0"
-        );
-        let mut values = pixels_per_micrometre(edge_um)
-            .map(u32::to_le_bytes)
-            .concat();
-        values.extend(description.as_bytes());
-        values.resize(values.len().next_multiple_of(8), 0);
-        let values_at = directory_at(big, pages);
-        let pixels = page_bytes.checked_mul(pages)?;
-        Some(Self {
-            width,
-            height,
-            page_bytes,
-            pages,
-            big,
-            description: description.len() as u64,
-            values_at,
-            end: pixels.checked_add(values_at + values.len() as u64)?,
-            values,
-        })
+/// All that stands before the pixels: the header, a directory for each page and the values that all of them
+/// point to. None where the sizes or, unless it is `big`, the places in the file are no numbers of 32 bits.
+fn head(dims: [usize; 3], voxel_edge: f64, note: &str, big: bool) -> Option<Vec<u8>> {
+    const ENTRIES: u64 = 14;
+    let side = |n: usize| u32::try_from(n).ok().filter(|n| *n > 0).map(u64::from);
+    let [width, height, pages] = [side(dims[0])?, side(dims[1])?, side(dims[2])?];
+    // Bytes of counts and offsets; where the first directory is, and how long each.
+    let (wide, begin, directory) = match big {
+        true => (8, 16, 8 + 20 * ENTRIES + 8),
+        false => (4, 8, 2 + 12 * ENTRIES + 4),
+    };
+    let edge_um = micrometres(voxel_edge);
+    let line_end = if note.is_empty() { "" } else { "\n" };
+    let description = format!(
+        "ImageJ=1.11a\nimages={pages}\nslices={pages}\nunit=um\nspacing={edge_um}\nloop=false\n{note}{line_end}\0"
+    );
+    let fraction = pixels_per_micrometre(edge_um).map(u32::to_le_bytes);
+    let mut values = [fraction.as_flattened(), description.as_bytes()].concat();
+    values.resize(values.len().next_multiple_of(8), 0);
+    let values_at = begin + pages * directory;
+    let pixels_at = values_at + values.len() as u64;
+    let page_bytes = width * height;
+    let end = page_bytes.checked_mul(pages)?.checked_add(pixels_at)?;
+    if !big && end > u64::from(u32::MAX) {
+        return None;
     }
-
-    fn header(&self) -> Vec<u8> {
-        let version: &[u8] = match self.big {
-            true => b"II\x2b\0\x08\0\0\0",
-            false => b"II\x2a\0",
-        };
-        [
-            version,
-            self.offset(&directory_at(self.big, 0).to_le_bytes()),
-        ]
-        .concat()
+    let offset = if big { LONG8 } else { LONG };
+    // A rational fits the value field of a BigTIFF entry only.
+    let resolution = if big {
+        u64::from_le_bytes(*values.first_chunk()?)
+    } else {
+        values_at
+    };
+    let mut bytes = if big {
+        &b"II\x2b\0\x08\0\0\0"[..]
+    } else {
+        b"II\x2a\0"
     }
-
-    /// The bytes of an offset or count that its flavour has; a classic file ends below 4 GiB.
-    fn offset<'a>(&self, bytes: &'a [u8; 8]) -> &'a [u8] {
-        &bytes[..if self.big { 8 } else { 4 }]
-    }
-
-    fn directory(&self, z: u64) -> Vec<u8> {
-        let offset = if self.big { LONG8 } else { LONG };
-        let strip = self.end - (self.pages - z) * self.page_bytes;
-        // A rational fits the value field of a BigTIFF entry only.
-        let fraction = self
-            .values
-            .first_chunk()
-            .map_or(0, |n| u64::from_le_bytes(*n));
-        let resolution = if self.big { fraction } else { self.values_at };
+    .to_vec();
+    bytes.extend(&u64::to_le_bytes(begin)[..wide]);
+    for z in 0..pages {
         let tags: [(Tag, u16, u64, u64); ENTRIES as usize] = [
             (Tag::NewSubfileType, LONG, 1, 0),
-            (Tag::ImageWidth, LONG, 1, self.width.into()),
-            (Tag::ImageLength, LONG, 1, self.height.into()),
+            (Tag::ImageWidth, LONG, 1, width),
+            (Tag::ImageLength, LONG, 1, height),
             (Tag::BitsPerSample, SHORT, 1, 8),
             (Tag::Compression, SHORT, 1, 1),
             (Tag::PhotometricInterpretation, SHORT, 1, 1),
             (
                 Tag::ImageDescription,
                 ASCII,
-                self.description,
-                self.values_at + 8,
+                description.len() as u64,
+                values_at + 8,
             ),
-            (Tag::StripOffsets, offset, 1, strip),
+            (Tag::StripOffsets, offset, 1, pixels_at + z * page_bytes),
             (Tag::SamplesPerPixel, SHORT, 1, 1),
-            (Tag::RowsPerStrip, LONG, 1, self.height.into()),
-            (Tag::StripByteCounts, offset, 1, self.page_bytes),
+            (Tag::RowsPerStrip, LONG, 1, height),
+            (Tag::StripByteCounts, offset, 1, page_bytes),
             (Tag::XResolution, RATIONAL, 1, resolution),
             (Tag::YResolution, RATIONAL, 1, resolution),
             (Tag::ResolutionUnit, SHORT, 1, 1), // the unit stands in the description
         ];
-        let count_width = if self.big { 8 } else { 2 };
-        let mut bytes = ENTRIES.to_le_bytes()[..count_width].to_vec();
+        bytes.extend(&ENTRIES.to_le_bytes()[..if big { 8 } else { 2 }]);
         for (tag, kind, count, value) in tags {
-            bytes.extend([tag.to_u16(), kind].map(u16::to_le_bytes).concat());
-            bytes.extend(self.offset(&count.to_le_bytes()));
-            bytes.extend(self.offset(&value.to_le_bytes()));
+            bytes.extend([tag.to_u16(), kind].map(u16::to_le_bytes).as_flattened());
+            for n in [count, value] {
+                bytes.extend(&n.to_le_bytes()[..wide]);
+            }
         }
-        let next = if z + 1 == self.pages {
+        let next = if z + 1 == pages {
             0
         } else {
-            directory_at(self.big, z + 1)
+            begin + (z + 1) * directory
         };
-        bytes.extend(self.offset(&next.to_le_bytes()));
-        bytes
+        bytes.extend(&next.to_le_bytes()[..wide]);
     }
-}
-
-fn directory_at(big: bool, z: u64) -> u64 {
-    match big {
-        true => 16 + z * (8 + 20 * ENTRIES + 8),
-        false => 8 + z * (2 + 12 * ENTRIES + 4),
-    }
+    Some([bytes, values].concat())
 }
 
 /// 1/edge as a fraction of 32-bit integers, exact to a picometre up to 4 mm.
@@ -221,16 +173,16 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         for big in [false, true] {
-            let layout = Layout::new([5, 4, 3], 1.45e-6, "", big).unwrap();
+            let pages: Vec<u8> = (0..60).collect();
             let mut bytes = Vec::new();
-            let mut writer = TiffWriter::with_layout(&mut bytes, &layout).unwrap();
-            for z in 0..3_u8 {
-                let page: Vec<u8> = (20 * z..20 * z + 20).collect();
-                writer.write_page(&page).unwrap();
-            }
+            let mut writer = TiffWriter::new(&mut bytes, [5, 4, 3], 1.45e-6, "").unwrap();
+            (pages.chunks(20)).for_each(|page| writer.write_page(page).unwrap());
             assert!(writer.write_page(&[0; 20]).is_err());
             writer.finish().unwrap();
-            assert_eq!(bytes.len() as u64, layout.end);
+            if big {
+                let head = head([5, 4, 3], 1.45e-6, "", true).unwrap();
+                bytes = [head, pages].concat();
+            }
             let mut decoder = tiff::decoder::Decoder::new(io::Cursor::new(&bytes)).unwrap();
             for z in 0..3_u8 {
                 assert_eq!(decoder.dimensions().unwrap(), (5, 4));

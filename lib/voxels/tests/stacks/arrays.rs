@@ -61,32 +61,7 @@ fn arrays_of_every_type_and_order() {
 }
 
 #[test]
-fn arrays_of_other_sizes_are_refused() {
-    for (descr, shape, said) in [
-        ("|u1", "99999999999, 99999999999, 99999999999", "no volume"),
-        ("|u1", "5, 13, 21", "truncated"),
-        ("|u1", "3, 13, 21", "273 bytes stand behind"),
-        ("|u1", "0, 13, 21", "no volume"),
-        ("|u1", "64, 96", "three axes"),
-        ("|u1", "", "three axes"),
-        ("|u1", "-1, 2, 3", "three axes"),
-        ("<c8", "4, 13, 21", "the type '<c8'"),
-        ("!u1", "4, 13, 21", "unknown byte order"),
-    ] {
-        for fortran in [false, true] {
-            assert_refused("a.npy", &npy(1, descr, fortran, shape, &volume()), &[said]);
-        }
-    }
-    // Headers of the same length behind `at`: without the order, of a record, of nothing.
-    for (at, text, said) in [
-        (27, "'c_order': 0,           ", "no 'fortran_order'"),
-        (10, "{'descr': [('a', '<u2')],", "the type 'a'"),
-        (10, &" ".repeat(117), "no 'descr'"),
-    ] {
-        let mut file = npy(1, "|u1", false, &shape(), &volume());
-        file[at..at + text.len()].copy_from_slice(text.as_bytes());
-        assert_refused("a.npy", &file, &[said]);
-    }
+fn an_axis_that_is_too_long_is_refused() {
     let long = npy(1, "|u1", false, "100001, 1, 1", &[0; 100_001]);
     assert_refused("a.npy", &long, &["more than 100000 along an axis"]);
 }
@@ -121,17 +96,6 @@ fn nifti_of_both_versions_plain_and_gzipped() {
     let colours: Vec<u8> = volume().iter().flat_map(|l| [*l, 0, 7]).collect();
     let labels = labels(|l| format!("{l}:0:7"));
     assert_file("a.nii", &nifti(false, 128, &colours), &labels);
-    for (kind, (at, byte), said) in [
-        (32, (0, 92), "data type is 32"),
-        (2, (40, 2), "three axes"),
-        (2, (42, 255), "truncated"),
-        (2, (345, b'i'), ".img"),
-        (2, (110, 0), "inside its header"),
-    ] {
-        let mut file = nifti(false, kind, &volume());
-        file[at] = byte;
-        assert_refused("a.nii", &file, &[said]);
-    }
     assert_refused("a.txt.gz", &gzip(b"some text"), &["gunzip"]);
 }
 

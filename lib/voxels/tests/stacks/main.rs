@@ -10,6 +10,7 @@ mod colours;
 mod damaged;
 mod grey_auto;
 mod headers;
+mod refused;
 mod slices;
 mod tiff_descriptions;
 mod tiff_file;

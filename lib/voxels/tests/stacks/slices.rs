@@ -1,16 +1,13 @@
 //! Folders of TIFF, BMP, PNG and JPEG slices are the stack that they were made from.
 
 use std::fs;
-use std::io::Write;
 
-use flate2::Crc;
 use png::{BitDepth, ColorType};
 use voxels::{Phases, Stack};
 
 use crate::build::*;
 use crate::check::*;
 use crate::tiff_file::*;
-use crate::tiff_layouts::packbits;
 
 /// Page `z` with a byte of each label.
 fn values(z: usize) -> Vec<u8> {
@@ -176,87 +173,5 @@ fn jpeg_slices_give_grey_values() {
         let (_folder, path) = stored("a.jpg", &whole[..whole.len() - cut]);
         let read = open(&path).read_page(0, &mut Vec::new());
         assert_says(read, &["truncated"]);
-    }
-}
-
-/// A grey PNG in the seven passes of Adam7, which no encoder at hand writes.
-fn interlaced(bits: usize, width: usize, height: usize, value: impl Fn(usize) -> u16) -> Vec<u8> {
-    const PASSES: [[usize; 4]; 7] = [
-        [0, 0, 8, 8],
-        [4, 0, 8, 8],
-        [0, 4, 4, 8],
-        [2, 0, 4, 4],
-        [0, 2, 2, 4],
-        [1, 0, 2, 2],
-        [0, 1, 1, 2],
-    ];
-    let mut stored = Vec::new();
-    for [x0, y0, dx, dy] in PASSES {
-        for y in (y0..height).step_by(dy) {
-            let row = (x0..width).step_by(dx).map(|x| value(y * width + x));
-            stored.push(0); // no filter
-            match bits {
-                16 => stored.extend(row.flat_map(u16::to_be_bytes)),
-                _ => stored.extend(packed(
-                    &row.map(|v| v as u8).collect::<Vec<_>>(),
-                    bits,
-                    width,
-                )),
-            }
-        }
-    }
-    let sizes = [width, height].map(|n| (n as u32).to_be_bytes()).concat();
-    let header = [sizes, vec![bits as u8, 0, 0, 0, 1]].concat();
-    let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
-    for (kind, data) in [
-        (b"IHDR", header),
-        (b"IDAT", zlib(&stored)),
-        (b"IEND", Vec::new()),
-    ] {
-        let mut crc = Crc::new();
-        crc.update(kind);
-        crc.update(&data);
-        file.extend((data.len() as u32).to_be_bytes());
-        file.write_all(&[&kind[..], &data, &crc.sum().to_be_bytes()].concat())
-            .unwrap();
-    }
-    file
-}
-
-#[test]
-fn interlaced_png_of_every_depth() {
-    let (width, height) = (13, 11);
-    for bits in [1, 2, 4, 8, 16] {
-        let value = |i: usize| {
-            let [x, y] = [i % width, i / width];
-            ((x * x + 3 * y + x * y) % 65_521 * 40_503 % (1 << bits)) as u16
-        };
-        let (_folder, path) = stored("a.png", &interlaced(bits, width, height, value));
-        let mut page = vec![0xff; 3 * width * height];
-        open(&path).read_page(0, &mut page).unwrap();
-        let right: Vec<u8> = (0..width * height)
-            .flat_map(|i| value(i).to_le_bytes()[..bits.div_ceil(8)].to_vec())
-            .collect();
-        assert_eq!(page, right, "{bits} bits");
-    }
-}
-
-/// A page is what its file says, whatever the buffer held before.
-#[test]
-fn every_kind_of_page_fills_a_used_buffer() {
-    let [nx, ny, _] = DIMS;
-    let narrow = (0..ny).flat_map(|y| vec![0b1010_0000 | y as u8; nx.div_ceil(2)]);
-    for (name, file) in [
-        ("a.tif", tiff(&plain_pages())),
-        ("b.tif", tiff(&[Page::of(4, narrow.collect())])),
-        ("c.tif", tiff(&[packbits(plain_pages().remove(0))])),
-        ("d.jpg", jpeg(&values(0), 90)),
-    ] {
-        let (_folder, path) = stored(name, &file);
-        let stack = open(&path);
-        let [mut fresh, mut used] = [Vec::new(), vec![0xff; 9 * nx * ny]];
-        stack.read_page(0, &mut fresh).unwrap();
-        stack.read_page(0, &mut used).unwrap();
-        assert_eq!(fresh, used, "{name}");
     }
 }

@@ -99,37 +99,6 @@ fn table_2_prints_for_reading_and_writes_csv() {
     assert_eq!(written.output(), csv);
 }
 
-#[test]
-fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
-    let bench = bench();
-    bench.write("empty.csv", "");
-    bench.write("header.csv", HISTORY.lines().next().unwrap());
-    bench.write("other.csv", "time_s,speed\n0,1\n");
-    bench.write("words.csv", HISTORY.replace("1.1e6", "much"));
-    bench.write("pores.csv", "file,diameter_um,up_to_fraction\na,1,NaN\n");
-    for (arguments, words) in [
-        ("pressure --run empty.csv", "at least one row"),
-        ("pressure --run header.csv", "at least one row"),
-        (
-            "pressure --run other.csv",
-            "no column pressure_top_Pa: it has time_s, speed",
-        ),
-        (
-            "pressure --run words.csv",
-            "line 3, column pressure_top_Pa: 'much'",
-        ),
-        ("pores wp.csv", "diameter_um"),
-        (
-            "pores pores.csv",
-            "line 2, column up_to_fraction: 'NaN' is not a finite number",
-        ),
-    ] {
-        let run = bench.run(&format!("{arguments} -o bad.svg"));
-        run.refused(3, words);
-        assert!(!bench.path("bad.svg").exists());
-    }
-}
-
 /// From series, histories and profiles, over times of any length.
 #[test]
 fn penetration_is_drawn_from_all_that_tells_of_it() {

@@ -48,7 +48,7 @@ fn a_folder_of_specimens_has_rows_of_each_and_a_summary() {
 fn what_has_no_mean_is_refused() {
     let bench = scans();
     let mean = |files: &str| bench.run(&format!("{files} -o /dev/null --summary -"));
-    state(&bench, "state.mpts", 0, 0.0, |_| ());
+    state(&bench, "state.mpts", 0, 0.0);
     let said = "'state.mpts' is a state of a run and 'specimen.mpts' a specimen";
     mean("specimen.mpts state.mpts").refused(2, said);
     bench.write("scans/the same.mpts", bench.read("scans/specimen.mpts"));

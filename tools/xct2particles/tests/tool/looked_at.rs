@@ -21,8 +21,6 @@ fn a_preview_is_drawn_of_three_cuts_and_needs_no_other_output() {
     let beside = bytes(grey, &[]);
     let level = bytes(&format!("{grey} --level y"), &["without grey values"]);
     assert!(beside > level + png.len() as u64 / 2, "{beside} {level}");
-    let vector = "acer.tif --voxel 1.45um --preview look.svg";
-    told(&bench, vector, 2, &["end in .png"]);
 }
 
 #[test]
@@ -75,69 +73,34 @@ fn phases_that_look_exchanged_are_refused() {
     told(&bench, "crack.tif -o o.mpts", 0, &[]);
 }
 
+/// Grey values brought noise along without a word.
 #[test]
-fn specks_are_taken_out_where_that_is_asked_for() {
+fn specks_are_told_and_taken_out_where_that_is_asked_for() {
     let bench = bench();
-    // Adhesive in wood and in void, a pair of it, wood in adhesive, void in wood.
-    let noise = [
-        ([3, 2, 4], 255),
-        ([10, 20, 5], 255),
-        ([5, 9, 2], 255),
-        ([6, 9, 2], 255),
-        ([8, 15, 3], 128),
-        ([15, 27, 7], 0),
-    ];
     let band = |y: usize| [128, 0, 255, 0, 128][y / 6];
-    let noisy = |x: usize, y: usize, z: usize| {
-        let noise = noise.iter().find(|(at, _)| *at == [x, y, z]);
-        noise.map_or(band(y), |(_, label)| *label)
-    };
-    bench.write("clean.tif", tiff([20, 30, 10], |_, y, _| band(y)));
-    bench.write("noisy.tif", tiff([20, 30, 10], noisy));
-    let columns = |arguments: &str, parts: &[&str]| {
-        let said = told(&bench, &format!("{arguments} -o o.mpts"), 0, parts);
-        let file = open(&bench, "o.mpts");
-        let noted = file.header().attribute("despeckle").map(str::to_owned);
-        (bits(&file), said, noted)
-    };
-    let (clean, ..) = columns("clean.tif", &[]);
-    let (bits, said, noted) = columns("noisy.tif", &[]);
-    assert!(bits != clean && !said.contains("despeckled") && noted.is_none());
-    let single = [
-        "4 pieces of at most 1 voxels",
-        "2 voxels of adhesive, 1 of wood, 1 of void",
-    ];
-    assert!(columns("noisy.tif --despeckle 1", &single).0 != clean);
-    let both = columns("noisy.tif --despeckle 2", &["5 pieces of at most 2 voxels"]);
-    assert_eq!((&both.0, both.2.as_deref()), (&clean, Some("2")));
-    assert_eq!(columns("clean.tif --despeckle 2", &[]).0, clean);
-    // Grey values brought noise along without a word.
     let speckled = |x: usize, y: usize, z: usize| match x % 4 + y % 4 + z % 4 {
         0 => 128,
         _ => band(y),
     };
+    bench.write("clean.tif", tiff([20, 30, 10], |_, y, _| band(y)));
     bench.write("speckled.tif", tiff([20, 30, 10], speckled));
-    let grey = "--grey wood=90..200,adhesive=201..";
+    let grey = "--grey wood=90..200,adhesive=201.. -o o.mpts";
+    let made = |arguments: &str, parts: &[&str]| {
+        let said = told(&bench, &format!("{arguments} {grey}"), 0, parts);
+        (bits(&open(&bench, "o.mpts")), said)
+    };
     let noise = ["of at most 4 voxels look like noise: --despeckle 4"];
-    columns(&format!("speckled.tif {grey}"), &noise);
-    for quiet in ["speckled.tif --despeckle 4", "clean.tif"] {
-        let (_, said, _) = columns(&format!("{quiet} {grey}"), &[]);
-        assert!(!said.contains("look like noise"), "{said}");
-    }
-}
-
-#[test]
-fn an_edge_in_the_wrong_unit_is_refused() {
-    let bench = with_acer();
-    for (edge, status) in [
-        ("1.45mm", 2),
-        ("1.45nm", 2),
-        ("1.45mm --yes-really", 0),
-        ("50um", 0),
-    ] {
-        let line = format!("acer.tif --voxel {edge} -o -");
-        told(&bench, &line, status, &["is the unit right?"]);
-    }
+    let (noisy, _) = made("speckled.tif", &noise);
+    let (clean, said) = made("clean.tif", &[]);
+    assert!(
+        noisy != clean && !said.contains("look like noise"),
+        "{said}"
+    );
+    let done = ["pieces of at most 1 voxels", "of wood, 0 of void"];
+    let (despeckled, said) = made("speckled.tif --despeckle 1", &done);
+    assert!(despeckled == clean && !said.contains("look like noise"));
+    let file = open(&bench, "o.mpts");
+    assert_eq!(file.header().attribute("despeckle"), Some("1"));
 }
 
 #[test]

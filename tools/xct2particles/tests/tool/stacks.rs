@@ -67,20 +67,6 @@ fn standard_input_standard_output_and_crops() {
 }
 
 #[test]
-fn labels_are_guessed_or_asked_for() {
-    let bench = bench();
-    let a_three = tiff(DIMS, |_, y, z| label(y).max(z as u8));
-    let undamaged = tiff(DIMS, |_, y, _| label(y).min(128));
-    for (stack, status, said) in [
-        (a_three, 2, &["--labels", "page 4 of 10", "holds 3"][..]),
-        (undamaged, 0, &["void=0,wood=128, without adhesive"]),
-    ] {
-        bench.write("a.tif", &stack);
-        told(&bench, "a.tif -o o.mpts", status, said);
-    }
-}
-
-#[test]
 fn a_voxel_size_against_the_files_own_is_taken_with_a_warning() {
     let bench = labelled();
     let run = |edge, said: &[&str]| {
@@ -93,21 +79,6 @@ fn a_voxel_size_against_the_files_own_is_taken_with_a_warning() {
     };
     assert_eq!(run("1.45um", &[]), "");
     run("2.9um", &["1.45 x 1.45 x 1.45 um; --voxel is taken"]);
-}
-
-#[test]
-fn huge_declared_sizes_fit_into_little_memory() {
-    let bench = bench();
-    let mut bytes = stack();
-    // Width (tag 256) and height (tag 257), type LONG, count 1, of the first page.
-    for tag in [0_u8, 1] {
-        let entry = [tag, 1, 4, 0, 1, 0, 0, 0];
-        let at = bytes.windows(8).position(|w| w == entry).unwrap();
-        bytes[at + 8..at + 12].copy_from_slice(&0x7fff_ffff_u32.to_le_bytes());
-    }
-    bench.write("a.tif", &bytes);
-    let limited = "ulimit -v 400000; exec $TOOL a.tif --threads 2 -o o.mpts";
-    bench.shell(limited).refused(3, "page 1");
 }
 
 /// Undamaged wood: labels guessed or named, grey values given or proposed; two values that may be
@@ -126,7 +97,11 @@ fn a_stack_without_adhesive_is_a_specimen_of_wood() {
         "mask.raw --grey wood=90..",
         "mask.raw --grey auto-wood",
     ] {
-        told(&bench, &format!("{input} {volume}"), 0, &["undamaged wood"]);
+        let said = match input {
+            "labels.raw" => "guessed: void=0,wood=128, without adhesive",
+            _ => "undamaged wood",
+        };
+        told(&bench, &format!("{input} {volume}"), 0, &[said]);
         assert_eq!(counts(&open(&bench, "o.mpts")), [600, 0], "{input}");
     }
     told(&bench, &format!("mask.raw {volume}"), 2, &["--labels"]);
@@ -167,29 +142,6 @@ fn raw_volumes_and_slices_give_the_voxels_that_they_hold() {
     }
 }
 
-#[test]
-fn a_tilted_specimen_is_turned_level_and_told() {
-    let bench = bench();
-    // The bands rise by 0.05 along x, 0.0507 by the steps of their voxels: 2.90 degrees about z.
-    let up = |x: usize| (0.05 * (x as f64 - 34.5)).round() as isize;
-    let tilted = |x: usize, y: usize, _| label((y as isize - up(x)).clamp(0, 19) as usize);
-    bench.write("a.tif", tiff(DIMS, tilted));
-    let said = [
-        "turned by 0.00, 0.00 and 2.90 ",
-        "68 x 16 x 10 voxels are left",
-    ];
-    told(&bench, "a.tif --level y -o o.mpts", 0, &said);
-    let file = open(&bench, "o.mpts");
-    assert_eq!(file.header().attribute("level"), Some("y"));
-    let (block, adhesive) = file.block_named("adhesive").unwrap();
-    assert_eq!(block.dims, [68, 16, 10]);
-    // Five layers, but for the steps of the bands that turning does not make smooth.
-    let layers = adhesive.counts_along(1);
-    let full = layers.iter().filter(|count| **count > 600).count();
-    let some = layers.iter().filter(|count| **count > 90).count();
-    assert!(full >= 4 && some <= 6, "{layers:?}");
-}
-
 /// A slab of five layers was said to be 2.5 layers thick, and its file to have its bond across y.
 #[test]
 fn a_specimen_that_is_levelled_across_x_has_its_bond_there() {
@@ -205,7 +157,9 @@ fn a_specimen_that_is_levelled_across_x_has_its_bond_there() {
         "turned by 0.00, 0.00 and 0.00",
     ];
     told(&bench, "a.tif --level x -o o.mpts", 0, &said);
-    assert_eq!(open(&bench, "o.mpts").header().normal, 0);
+    let file = open(&bench, "o.mpts");
+    assert_eq!(file.header().normal, 0);
+    assert_eq!(file.header().attribute("level"), Some("x"));
     let refused = "--level y: the bond lies across x, not across y";
     told(&bench, "a.tif --level y -o -", 2, &[refused]);
 }
