@@ -163,7 +163,10 @@ mod tests {
         write(&folder, &of("0.1.0", "explicit 1, run 1"), checkpoint).unwrap();
         let said = |version: &str, format: &str| {
             let found = read(place.path(), &of(version, format), &String::new);
-            found.map(|_| ()).map_err(|error| error.to_string())
+            found.map(|_| ()).map_err(|error| match error {
+                RunFailure::Usage(said) => said,
+                other => panic!("{other:?}"),
+            })
         };
         said("0.1.0", "explicit 1, run 1").unwrap();
         for (version, format) in [

@@ -29,7 +29,9 @@ pub(crate) fn read(
         let another = "it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew";
         return refused(format!("{}: {another}{}", path.display(), changed()));
     }
-    another_build(header, origin).map_or(Ok(()), |said| Err(bad(said)))?;
+    if let Some(said) = another_build(header, origin) {
+        return refused(format!("{}: {said}", path.display()));
+    }
     content(&file).map(Some).map_err(bad)
 }
 
