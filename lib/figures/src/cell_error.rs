@@ -21,7 +21,7 @@ impl Table2 {
     }
 
     /// The run that a quantity of `row` is held against where it has no error of its own: `implicit-NAME`
-    /// where there is one with an error, else `implicit`.
+    /// where there is one with an error, else `implicit`. A pressure is held against one after the same way of the clamp.
     fn reference(&self, row: &Row, quantity: usize) -> Option<(&Row, Known)> {
         let named = |name: &str| {
             let mut others = self.runs().filter(|run| run.adhesive == row.adhesive);
@@ -30,7 +30,11 @@ impl Table2 {
         };
         match row.known[quantity].has_error() {
             true => None,
-            false => named(&format!("implicit-{}", row.case)).or_else(|| named("implicit")),
+            false => named(&format!("implicit-{}", row.case))
+                .or_else(|| named("implicit"))
+                .filter(|(other, _)| {
+                    QUANTITIES[quantity].unit != "MPa" || !row.goes_another_way(other)
+                }),
         }
     }
 
@@ -84,7 +88,21 @@ impl Table2 {
                 text += &format!("{:>19}", self.cell(row, i));
             }
         }
-        text + "\n"
+        text += "\n";
+        let apart = self.runs().filter(|row| {
+            let (of, known) = (self.reference(row, 0), row.known[BESIDE_TABLE2 + 2]);
+            of.is_some_and(|(other, _)| row.goes_another_way(other)) && known.as_run.is_finite()
+        });
+        let names: Vec<String> = apart
+            .map(|row| format!("{} {}", row.adhesive, row.case))
+            .collect();
+        if !names.is_empty() {
+            text += &format!(
+                "pressure end -: of another way of the clamp, which is no error: {}\n",
+                names.join(", ")
+            );
+        }
+        text
     }
 
     fn cell(&self, row: &Row, quantity: usize) -> String {
