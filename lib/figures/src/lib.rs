@@ -47,6 +47,7 @@ mod view;
 mod wp_map;
 
 pub use base64::base64;
+pub use cell_error::AT_THE_END;
 pub use closing::{closing, time_unit};
 pub use clouds::{Clouds, Spot};
 pub use column_name::worded;

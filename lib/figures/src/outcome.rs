@@ -52,14 +52,15 @@ impl Outcome {
         let ends = |v: &f64| [-self.error, self.error].map(|e| v * (1.0 + e));
         let ends = self.values.iter().flat_map(ends);
         let (low, high) = extent(ends.clone());
-        let least = ROOM * self.error * low.abs().max(high.abs());
-        let pad = (0.5 * (least - (high - low))).max(0.0);
+        let room = ROOM * self.error * low.abs().max(high.abs());
+        let pad = (0.5 * (room - (high - low))).max(0.0);
         // Room below zero is none for what is never there.
-        let floor = if low < 0.0 { f64::NEG_INFINITY } else { 0.0 };
-        axis(
-            &self.title,
-            ends.chain([(low - pad).max(floor), high + pad]),
-        )
+        let least = if low < 0.0 {
+            low - pad
+        } else {
+            (low - pad).max(0.0)
+        };
+        axis(&self.title, ends.chain([least, high + pad]))
     }
 }
 

@@ -218,12 +218,8 @@ mod tests {
         };
         let panels = Panels::in_columns(&sheets, layout, 2, 50.0, 0.0);
         // Pairs stay in a row and leave no part of it empty: six panels were a row of four and one of two.
-        let pairs: Vec<Sheet> = (0..6)
-            .map(|i| Sheet {
-                beside: i % 2 == 1,
-                ..Sheet::new([1.0, 1.5], "", None)
-            })
-            .collect();
+        let mut pairs = [(); 6].map(|()| Sheet::new([1.0, 1.5], "", None));
+        pairs[1].beside = true;
         let placed = Panels::place(&pairs, layout, Page::default());
         let tops = placed.frames.chunks(2).map(|row| (row[0].top, row[1].top));
         assert!(tops.is_sorted_by(|above, below| above.0 == above.1 && above.0 < below.0));

@@ -243,12 +243,6 @@ impl Row {
         })
     }
 
-    /// Whether the clamp of its run has gone another way than that of `other`, where both are known.
-    pub(crate) fn goes_another_way(&self, other: &Self) -> bool {
-        let ends = self.end.as_ref().zip(other.end.as_ref());
-        ends.is_some_and(|(end, other)| end.is_apart(other))
-    }
-
     pub(crate) fn has_error(&self) -> bool {
         self.known[2].has_error()
     }
