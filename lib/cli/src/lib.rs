@@ -35,7 +35,7 @@ pub use common::{Common, main};
 pub use exit::{Failure, Status};
 pub use message::{cell, detail, harmless, note, print, warn};
 pub use output::Output;
-pub use progress::Progress;
+pub use progress::{Progress, duration};
 pub use provenance::{InputRecord, Record, hash_reader};
 pub use signals::{catch_interrupts, interrupted};
 pub use staged::StagedFolder;
