@@ -183,7 +183,7 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
         .run("--series empty")
         .refused(3, "is not a run folder of mpm-run");
     // It was said to hold no slices.
-    bench.write("empty/bondline-run.toml", "");
+    bench.write(&format!("empty/{}", particle_file::RUN_MARK), "");
     bench
         .run("empty")
         .refused(3, "a run that has written no final.mpts yet");
