@@ -1,7 +1,5 @@
 //! Run folders: what one may replace, and what it may not.
 
-use std::fs;
-
 use studies::crash::{campaign, faults, full_disk, together};
 
 use crate::workbench::{Workbench, press};
