@@ -43,6 +43,8 @@ endif
 $(if $(findstring grid.cell=,$(SET)),$(error SET holds for finer runs too: give CELL="1 voxel" in place of grid.cell))
 
 # SET="key=value ..." as options of mpm-run: a word with a `=` begins a key, others go on with its value.
+$(if $(strip $(SET)),$(if $(filter =%,$(SET) $(if $(findstring =,$(firstword $(SET))),,=)),\
+    $(error SET='$(SET)': KEY=VALUE is needed$(COMMA) without a blank before the =)))
 EMPTY :=
 MARKED = $(subst ','\'',$(foreach word,$(SET),$(if $(findstring =,$(word)),@@)$(word)))
 SETS = $(if $(SET),--set '$(subst $(EMPTY) @@,' --set ',$(subst ^@@,,^$(MARKED)))')

@@ -34,10 +34,12 @@ $(OUT)/table2.csv: $(METRICS) $(EXPERIMENT_TABLES) $(BIN)/bond-figures FORCE
 	$(call made,$(TABLE2) $(call table2_rows,$(RUNS)) $(if $(FINER),--errors $(OUT)/errors.csv) \
 	    -o $@ >$(OUT)/table2.txt $(if $(FINER),,&& rm -f $(OUT)/errors.csv))
 
+# Said where the last table is yet far: other runs are to come, or tools to be built.
 .PHONY: first-table
+AHEAD := $(or $(filter-out implicit%,$(RUNS)),$(if $(wildcard $(BIN)/bond-report),,tools))
 IMPLICIT := $(filter implicit%,$(RUNS))
 first-table: $(foreach a,$(ADHESIVES),$(IMPLICIT:%=$(OUT)/$(a)/%/wp.csv)) $(EXPERIMENT_TABLES)
-	$(if $(filter %/wp.csv,$(MADE)),@$(TABLE2) $(call table2_rows,$(IMPLICIT)) -o - >/dev/null)
+	$(if $(and $(AHEAD),$(filter %/wp.csv,$(MADE))),@$(TABLE2) $(call table2_rows,$(IMPLICIT)) -o - >/dev/null)
 
 ifeq ($(BUILT),foremost)
 $(OTHER_BINARIES) &: FORCE | $(FIRST_TABLE)

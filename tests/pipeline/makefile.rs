@@ -55,6 +55,9 @@ fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
         ],
     );
     refuse(&["SET=grid.cell=1 um", "runs"], "give CELL=");
+    for set in ["SET=clamp.x", "SET=a = 1", "SET=a=1 b =2"] {
+        refuse(&[set, "runs"], "KEY=VALUE is needed");
+    }
     let slip =
         "no variable XCT_PFF=, but XCT_BOTTOM= XCT_PF= XCT_PVA_PF= XCT_TOP=: make help lists all.";
     refuse(&["XCT_PFF=a.tif", "runs"], slip);

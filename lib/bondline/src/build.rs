@@ -1,6 +1,6 @@
 //! The bond line before pressing, from a bonded specimen; the opening of any two adherends.
 
-use particle_file::BitGrid;
+use particle_file::{BitGrid, Block, Draft, Header, Material};
 use units::Axis;
 
 use crate::placed::{corner, layers};
@@ -86,6 +86,21 @@ impl Bond {
     /// Thickness of the slab, m.
     pub fn slab_m(&self) -> f64 {
         self.slab_cells as f64 * self.cell_m
+    }
+
+    /// Its particle file, with this header.
+    pub fn draft(&self, header: Header) -> Draft<'_> {
+        let parts = [
+            ("wood-bottom", Material::Rigid, &self.bottom),
+            ("wood-top", Material::Rigid, &self.top),
+            ("adhesive", Material::Adhesive, &self.slab),
+        ];
+        parts
+            .into_iter()
+            .fold(Draft::new(header), |draft, (name, material, part)| {
+                let block = Block::new(name, material, part.origin_m, self.voxel_m, &part.bits);
+                draft.block(block, &part.bits)
+            })
     }
 
     /// Effective penetration of the specimen: adhesive volume over bond area, m.

@@ -66,7 +66,9 @@ fn made_for<T>(
     loop {
         let prefix = prefix(target);
         let mut builder = Builder::new();
-        let (handle, made) = make(builder.prefix(&prefix).suffix(ENDING), folder_of(target))?;
+        let made = make(builder.prefix(&prefix).suffix(ENDING), folder_of(target));
+        // Without the name, which nobody asked for.
+        let (handle, made) = made.map_err(|error| io::Error::from(error.kind()))?;
         // Where the file system knows no locks nothing is swept either.
         let _ = handle.lock();
         // A sweep may have taken it for forgotten in between.
@@ -128,6 +130,8 @@ mod tests {
         drop(lock);
         let other = file_for(&folder.path().join("other")).unwrap();
         assert!(folder_left.exists(), "it is not that target's");
+        let nowhere = file_for(&folder.path().join("none/a")).unwrap_err();
+        assert!(!nowhere.to_string().contains(ENDING), "{nowhere}");
         let again = file_for(&target).unwrap();
         assert!(!folder_left.exists(), "a forgotten folder is swept");
         assert!(busy.path().exists() && other.path().exists() && again.path().exists());

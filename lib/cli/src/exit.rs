@@ -45,7 +45,7 @@ impl Failure {
         Self::new(Status::Data, message)
     }
 
-    /// Of input that other arguments would help (exit 2), or that is itself at fault (exit 3).
+    /// Of input that other arguments or another case would help (exit 2), or that is itself at fault (exit 3).
     pub fn of_input(is_usage: bool, message: impl fmt::Display) -> Self {
         match is_usage {
             true => Self::usage(message),

@@ -4,22 +4,22 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicI8, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::{Failure, Output};
 
-/// -1 quiet, 0 normal, 1 and more verbose. A statement about the process, set once.
-static LEVEL: AtomicI8 = AtomicI8::new(0);
+/// A statement about the process, set once.
+static QUIET: AtomicBool = AtomicBool::new(false);
 
-pub(crate) fn set_level(level: i8) {
-    LEVEL.store(level, Ordering::Relaxed);
+pub(crate) fn set_quiet(quiet: bool) {
+    QUIET.store(quiet, Ordering::Relaxed);
 }
 
 pub(crate) fn quiet() -> bool {
-    LEVEL.load(Ordering::Relaxed) < 0
+    QUIET.load(Ordering::Relaxed)
 }
 
-/// A line on standard error whatever the level.
+/// A line on standard error, also with `--quiet`.
 pub(crate) fn say(message: impl Display) {
     let line = format!("{}\n", harmless(&message.to_string()));
     let _ = io::stderr().lock().write_all(line.as_bytes());
@@ -28,13 +28,6 @@ pub(crate) fn say(message: impl Display) {
 /// A line on standard error unless `--quiet`.
 pub fn note(message: impl Display) {
     if !quiet() {
-        say(message);
-    }
-}
-
-/// A line on standard error with `--verbose`.
-pub fn detail(message: impl Display) {
-    if LEVEL.load(Ordering::Relaxed) > 0 {
         say(message);
     }
 }

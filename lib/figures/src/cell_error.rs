@@ -8,6 +8,9 @@ use crate::table2::{Row, Table2, number};
 
 /// The first of the quantities that Table 2 does not have.
 const BESIDE_TABLE2: usize = 3;
+/// What a pressure at the end is of.
+pub const AT_THE_END: &str = "in the middle of the last step, which is longer in larger cells, so not after quite the same travel; \
+    not compared with a run that left another gap";
 
 impl Table2 {
     /// Whether a finer run says something of the error of a run.
@@ -21,16 +24,22 @@ impl Table2 {
     }
 
     /// The run that a quantity of `row` is held against where it has no error of its own: `implicit-NAME`
-    /// where there is one with an error, else `implicit`.
+    /// where there is one with an error, else `implicit`. A pressure is held against one after the same way of the clamp.
     fn reference(&self, row: &Row, quantity: usize) -> Option<(&Row, Known)> {
         let named = |name: &str| {
             let mut others = self.runs().filter(|run| run.adhesive == row.adhesive);
             let other = others.find(|run| run.case == name && run.known[quantity].has_error())?;
             Some((other, other.known[quantity]))
         };
+        let apart = |other: &Row| {
+            let ends = row.end.as_ref().zip(other.end.as_ref());
+            QUANTITIES[quantity].unit == "MPa"
+                && ends.is_some_and(|(end, other)| end.is_apart(other))
+        };
+        let best = || named(&format!("implicit-{}", row.case)).or_else(|| named("implicit"));
         match row.known[quantity].has_error() {
             true => None,
-            false => named(&format!("implicit-{}", row.case)).or_else(|| named("implicit")),
+            false => best().filter(|(other, _)| !apart(other)),
         }
     }
 
@@ -84,7 +93,7 @@ impl Table2 {
                 text += &format!("{:>19}", self.cell(row, i));
             }
         }
-        text + "\n"
+        text + &format!("\npressure end: {AT_THE_END}\n")
     }
 
     fn cell(&self, row: &Row, quantity: usize) -> String {

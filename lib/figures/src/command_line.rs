@@ -27,10 +27,11 @@ pub(crate) fn again(command: &[String], option: &str, key: Option<&str>) -> Stri
     format!(":\n    {}", words.join(" "))
 }
 
-/// The SET with which `make` does a run again with this key: that of the run, but for what make gives of its own, and the key.
+/// The SET with which the same `make` does a run again with this key: that of the run, but for what make gives of its own, and
+/// the key.
 pub(crate) fn of_make(command: &[String], key: &str) -> String {
     if command.is_empty() {
-        return format!("make: {} added to your SET", quoted(key));
+        return format!("make as before with {} added to your SET", quoted(key));
     }
     let name = key.split_inclusive('=').next().unwrap_or_default();
     let others = |set: &&str| {
@@ -40,7 +41,7 @@ pub(crate) fn of_make(command: &[String], key: &str) -> String {
     let pairs = command.windows(2).filter(|pair| pair[0] == "--set");
     let sets = pairs.map(|pair| pair[1].as_str()).filter(others);
     let sets: Vec<&str> = sets.chain([key]).collect();
-    format!("make: SET={}", quoted(&sets.join(" ")))
+    format!("make as before with SET={}", quoted(&sets.join(" ")))
 }
 
 /// A word for a shell.
@@ -64,9 +65,9 @@ mod tests {
     fn the_set_of_a_run_is_kept() {
         let command = "mpm-run|a.toml|--set|grid.cell=1 voxel|--set|adhesive.viscosity=500 cP|--set|clamp.time_limit=20 us";
         let command: Vec<String> = command.split('|').map(String::from).collect();
-        let set = "make: SET='adhesive.viscosity=500 cP clamp.time_limit=60 us'";
+        let set = "make as before with SET='adhesive.viscosity=500 cP clamp.time_limit=60 us'";
         assert_eq!(of_make(&command, "clamp.time_limit=60 us"), set);
-        let unknown = "make: 'clamp.time_limit=60 us' added to your SET";
+        let unknown = "make as before with 'clamp.time_limit=60 us' added to your SET";
         assert_eq!(of_make(&[], "clamp.time_limit=60 us"), unknown);
     }
 

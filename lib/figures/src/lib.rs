@@ -45,6 +45,7 @@ mod text;
 mod view;
 mod wp_map;
 
+pub use cell_error::AT_THE_END;
 pub use closing::{closing, time_unit};
 pub use clouds::{Clouds, Spot};
 pub use column_name::worded;

@@ -52,9 +52,15 @@ impl Outcome {
         let ends = |v: &f64| [-self.error, self.error].map(|e| v * (1.0 + e));
         let ends = self.values.iter().flat_map(ends);
         let (low, high) = extent(ends.clone());
-        let least = ROOM * self.error * low.abs().max(high.abs());
-        let pad = (0.5 * (least - (high - low))).max(0.0);
-        axis(&self.title, ends.chain([low - pad, high + pad]))
+        let room = ROOM * self.error * low.abs().max(high.abs());
+        let pad = (0.5 * (room - (high - low))).max(0.0);
+        // Room below zero is none for what is never there.
+        let least = if low < 0.0 {
+            low - pad
+        } else {
+            (low - pad).max(0.0)
+        };
+        axis(&self.title, ends.chain([least, high + pad]))
     }
 }
 
@@ -112,6 +118,9 @@ mod tests {
         assert!(fall(0.0) > 0.5 && fall(0.023) < 0.09, "{}", fall(0.023));
         let axis = outcome(0.023).axis();
         assert!(axis.share(7.4 * 0.977) > 0.2 && axis.share(7.49 * 1.023) < 0.8);
+        let pressure = Outcome::new("pressure_pa", vec![5e5, 1e6], Some(0.4)).axis();
+        assert_eq!(pressure.share(0.0), 0.0);
+        assert!(pressure.share(0.3) > 0.05);
         // As run against extrapolated: 6.9391 of 7.1283, 6.4713 of 6.2687 um and 0.1977 of 0.3305 MPa.
         for (name, error) in [
             ("wp_um", 0.0265),

@@ -131,7 +131,7 @@ impl Panels {
                 n => n.min(3),
             };
             let together = 1 + usize::from(sheets.iter().any(|sheet| sheet.beside));
-            let columns = columns.next_multiple_of(together);
+            let columns = columns - columns % together;
             return Self::in_columns(sheets, layout, columns, natural, COLUMN);
         };
         let fitted = |columns: usize| {
@@ -217,6 +217,12 @@ mod tests {
             right: 0.0,
         };
         let panels = Panels::in_columns(&sheets, layout, 2, 50.0, 0.0);
+        // Pairs stay in a row and leave no part of it empty: six panels were a row of four and one of two.
+        let mut pairs = [(); 6].map(|()| Sheet::new([1.0, 1.5], "", None));
+        pairs[1].beside = true;
+        let placed = Panels::place(&pairs, layout, Page::default());
+        let tops = placed.frames.chunks(2).map(|row| (row[0].top, row[1].top));
+        assert!(tops.is_sorted_by(|above, below| above.0 == above.1 && above.0 < below.0));
         let [a, b] = [0, 1].map(|i| panels.frames[i].top + panels.frames[i].height);
         assert_eq!(a, b);
     }

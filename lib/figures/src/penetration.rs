@@ -123,7 +123,7 @@ fn of_history(
     may_lack: bool,
 ) -> Result<Vec<f64>, Error> {
     if !table.has(&column("bottom")) {
-        return Err(Error::Data(format!(
+        return Err(Error::Request(format!(
             "'{}' does not tell of penetration: a history does where the case has [output] penetration = true, and \
              wp-metrics --series tells it of the snapshots of any run",
             table.name()

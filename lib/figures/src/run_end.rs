@@ -124,6 +124,11 @@ impl RunEnd {
         }
     }
 
+    /// Whether it leaves another share of the gap than `other`.
+    pub(crate) fn is_apart(&self, other: &Self) -> bool {
+        (self.gap_share - other.gap_share).abs() > CLOSED
+    }
+
     /// What keeps its results from being those of a closed bond, in a few words.
     pub fn mark(&self) -> Option<String> {
         let open = self.gap_share > CLOSED;
@@ -251,7 +256,7 @@ mod tests {
         let end = RunEnd::of(&summary("time-limit", 4.2e-6));
         assert_eq!(end.mark().unwrap(), "not closed, 42 % of the gap left");
         let advice = end.advice().unwrap();
-        let command = "(make: SET='clamp.time_limit=300 us'):\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
+        let command = "(make as before with SET='clamp.time_limit=300 us'):\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
         assert!(advice.ends_with(command), "{advice}");
         assert!(advice.contains("(4.20 um)"), "{advice}");
         for closed in ["closed", "time"] {

@@ -17,6 +17,7 @@ mod step;
 mod system;
 mod water;
 
+pub use geometry::check;
 pub use permeability::{Permeability, permeability};
 pub use plan::Plan;
 pub use settings::Settings;

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use memmap2::{Mmap, MmapMut};
 
+use crate::RUN_MARK;
 use crate::spool::spool;
 
 /// The bytes of a file, mapped; the only place of the workspace that maps files.
@@ -61,7 +62,10 @@ fn opened(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<(File, 
     };
     let kind = file.metadata()?;
     if kind.is_dir() {
-        return Err(io::Error::other("it is a folder"));
+        return Err(io::Error::other(match path.join(RUN_MARK).is_file() {
+            true => "it is the folder of a run: name a state in it, such as final.mpts",
+            false => "it is a folder",
+        }));
     }
     if kind.is_file() {
         return Ok((file, true));

@@ -139,17 +139,18 @@ impl VoxelBlock {
         self.bits.iter().map(|w| u64::from(w.count_ones())).sum()
     }
 
+    /// The voxel that holds `point` (m, in the block's frame).
+    pub fn voxel_at(&self, point: [f64; 3]) -> Option<[usize; 3]> {
+        let place = |a: usize| (point[a] - self.origin[a]) / self.voxel[a];
+        let inside = |a: usize| place(a) >= 0.0 && place(a) < self.dims[a] as f64;
+        (0..3)
+            .all(inside)
+            .then(|| [0, 1, 2].map(|a| place(a) as usize))
+    }
+
     /// Whether `point` (m, in the block's frame) is in a solid voxel.
     pub fn contains(&self, point: [f64; 3]) -> bool {
-        let mut index = [0_usize; 3];
-        for a in 0..3 {
-            let x = (point[a] - self.origin[a]) / self.voxel[a];
-            if !(x >= 0.0 && x < self.dims[a] as f64) {
-                return false;
-            }
-            index[a] = x as usize;
-        }
-        self.solid(index[0], index[1], index[2])
+        (self.voxel_at(point)).is_some_and(|[i, j, k]| self.solid(i, j, k))
     }
 }
 

@@ -23,7 +23,7 @@ pub use material::{
 };
 pub use press::{CONTROLLED, Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;
-pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Seed, Stop};
+pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Seed, Stop, norm};
 pub use scheme::{
     Array, Diagnostics, Failure, LiquidState, Pieces, Saved, Saving, Scheme, StageTime, StepLimit,
     StepReport, WaterState,

@@ -166,7 +166,8 @@ impl Amount {
     }
 }
 
-fn norm(v: [f64; 3]) -> f64 {
+/// Length of a vector.
+pub fn norm(v: [f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 

@@ -20,24 +20,26 @@ pub(crate) fn escape(text: &str) -> String {
     out
 }
 
-/// A table whose first column names its rows. Cells that are numbers are set to the right.
+/// A table whose first column names its rows. Cells that are numbers are set to the right, and so are heads of nothing else.
 pub(crate) fn table(caption: &str, headers: &[impl AsRef<str>], rows: &[Vec<String>]) -> String {
     let mut out = format!(
         "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table><caption>{0}</caption>\n<thead><tr>",
         escape(caption)
     );
-    for header in headers {
-        out += &format!("<th scope=\"col\">{}</th>", escape(header.as_ref()));
+    let class = |right| if right { " class=\"number\"" } else { "" };
+    for (i, header) in headers.iter().enumerate() {
+        let mut column = rows.iter().filter_map(|row| row.get(i));
+        let right = class(i > 0 && column.all(|cell| is_number(cell) || cell == "-"));
+        out += &format!("<th scope=\"col\"{right}>{}</th>", escape(header.as_ref()));
     }
     out += "</tr></thead>\n<tbody>\n";
     for row in rows {
         out += "<tr>";
         for (i, cell) in row.iter().enumerate() {
             let text = escape(cell);
-            out += &match (i, is_number(cell)) {
-                (0, _) => format!("<th scope=\"row\">{text}</th>"),
-                (_, true) => format!("<td class=\"number\">{text}</td>"),
-                (_, false) => format!("<td>{text}</td>"),
+            out += &match i {
+                0 => format!("<th scope=\"row\">{text}</th>"),
+                _ => format!("<td{}>{text}</td>", class(is_number(cell))),
             };
         }
         out += "</tr>\n";

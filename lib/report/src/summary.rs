@@ -1,6 +1,6 @@
 //! The first section of the page: what was pressed, what came of it, what to doubt.
 
-use figures::{ERRORS, Known, RunEnd, signed};
+use figures::{AT_THE_END, ERRORS, Known, RunEnd, signed};
 
 use crate::html::{escape, table, verbatim};
 use crate::setup::Setup;
@@ -79,7 +79,9 @@ fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
     let pressure = "pressure at the end (MPa)";
     let headers = ["run", "bottom", "top", "total", pressure, "press"];
     let note = match runs.iter().any(|run| run.wp[2].has_error()) {
-        true => format!("<p class=\"note\">{ERRORS}; others: as run</p>\n"),
+        true => format!(
+            "<p class=\"note\">{ERRORS}; others: as run. Pressure at the end: {AT_THE_END}</p>\n"
+        ),
         false => String::new(),
     };
     table("Weighted penetration (um)", &headers, &rows) + &note

@@ -61,8 +61,9 @@ mod tests {
         for part in [
             "<td class=\"number\">7.801</td>",
             "<th scope=\"row\">flip</th>",
-            "<th scope=\"col\">WP (um)</th>",
-            "<th scope=\"col\">adhesive.viscosity (Pa s)</th>",
+            "<th scope=\"col\">case</th>",
+            "<th scope=\"col\" class=\"number\">WP (um)</th>",
+            "class=\"number\">adhesive.viscosity (Pa s)</th>",
         ] {
             assert!(page.contains(part), "{page}");
         }

@@ -5,14 +5,25 @@ use std::path::Path;
 use crate::case::{Case, case_text};
 use crate::failure::RunFailure;
 
-/// The text of the case file at `path` with `changes` (`key=value`), which parses as a case.
+/// The text of the case file at `path` with `changes` (`key=value`), which parses as a case; without comments and in one
+/// order of keys.
 ///
 /// # Errors
 /// [`RunFailure::Usage`]: a file that cannot be read, is no case or does not become one.
 pub fn changed_case(path: &Path, changes: &[String]) -> Result<String, RunFailure> {
     let text = changed(&case_text(path)?, path, changes)?;
     Case::parse(&text, path)?;
-    Ok(text)
+    let plain = toml::from_str::<toml::Table>(&text).ok();
+    let plain = plain.and_then(|table| toml::to_string(&table).ok());
+    Ok(plain.unwrap_or(text))
+}
+
+/// The value below `place` at a dotted path, such as `clamp.stage.0.speed`.
+pub fn value_at<'a>(place: &'a toml::Value, path: &str) -> Option<&'a toml::Value> {
+    path.split('.').try_fold(place, |place, name| {
+        let index = || place.get(name.parse::<usize>().ok()?);
+        place.get(name).or_else(index)
+    })
 }
 
 /// The case text with `changes` applied; the text itself when there are none, so that errors

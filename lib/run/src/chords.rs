@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use physics::{RigidBody, Scene, VoxelBlock};
+use physics::{Scene, VoxelBlock};
 
 use crate::left_out::Remark;
 
@@ -15,7 +15,13 @@ const FEWEST: f64 = 5.0;
 /// What they are and, where they have few cells, what to do; nothing where the bodies are boxes or have no lumens.
 pub(crate) fn told(scene: &Scene) -> Vec<Remark> {
     let sides = [(scene.bottom, true), (scene.top, false)];
-    let blocks = sides.map(|(body, up)| Some((single(scene.bodies.get(body?)?)?, up)));
+    // Of adherends of voxels.
+    let blocks = sides.map(
+        |(body, up)| match scene.bodies.get(body?)?.blocks.as_slice() {
+            [block] if block.dims() != [1; 3] => Some((block, up)),
+            _ => None,
+        },
+    );
     let mut lengths = Lengths::default();
     for (block, up) in blocks.into_iter().flatten() {
         for (length, n) in across_grain(block, up) {
@@ -51,14 +57,6 @@ pub(crate) fn told(scene: &Scene) -> Vec<Remark> {
         });
     }
     out
-}
-
-/// The block of an adherend of voxels.
-fn single(body: &RigidBody) -> Option<&VoxelBlock> {
-    match body.blocks.as_slice() {
-        [block] if block.dims() != [1; 3] => Some(block),
-        _ => None,
-    }
 }
 
 /// How many runs of void have each length, voxels.

@@ -6,7 +6,7 @@ use physics::{
 };
 
 use crate::case::{Case, SchemeName};
-use crate::forecast::{Forecast, duration, line};
+use crate::forecast::{Forecast, line};
 use crate::left_out::{Remark, left_out};
 use crate::resolve::Setup;
 use crate::{chords, expected_error, summary};
@@ -244,7 +244,7 @@ fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
     };
     [
         format!("about {} until {end_s:.4e} s{held}", count(forecast.steps)),
-        duration(forecast.steps * forecast.step_s),
+        cli::duration(forecast.steps * forecast.step_s),
     ]
 }
 

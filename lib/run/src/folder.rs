@@ -244,8 +244,7 @@ pub(crate) mod tests {
         Provenance {
             tool: "mpm-run".into(),
             version: version.into(),
-            command: Vec::new(),
-            inputs: Vec::new(),
+            ..Provenance::default()
         }
     }
 
@@ -279,19 +278,6 @@ pub(crate) mod tests {
         }
         fs::remove_dir(place.path().join(SNAPSHOTS)).unwrap();
         folder.check_writable(&[]).unwrap();
-    }
-
-    #[test]
-    fn a_folder_that_was_replaced_is_not_written_into() {
-        let (place, folder) = held();
-        folder.write_text(SUMMARY, "1").unwrap();
-        fs::remove_file(place.path().join(RUN_MARK)).unwrap();
-        fs::write(place.path().join(RUN_MARK), "").unwrap();
-        let said = folder.write_text(SUMMARY, "2").unwrap_err().to_string();
-        let why = "bondline-run.toml: it was removed or replaced";
-        assert!(said.contains(why), "{said}");
-        assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
-        assert!(!is_there(&place.path().join(ASIDE)));
     }
 
     #[test]

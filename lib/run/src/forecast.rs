@@ -41,7 +41,7 @@ impl Forecast {
                 "the run would take up to {:.1e} steps of {:.2e} s, {}, where {ENDLESS:e} steps or a week are the most; the limit that binds is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
                 self.most_steps,
                 self.dt_s,
-                duration(seconds),
+                cli::duration(seconds),
                 self.limit
             ));
         }
@@ -59,16 +59,6 @@ impl Forecast {
 /// A line of a plan.
 pub(crate) fn line(name: &str, text: impl Display) -> String {
     format!("  {name:<18} {text}\n")
-}
-
-/// A wall time in the unit that suits it.
-pub(crate) fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{s:.1} s"),
-        s if s < 7200.0 => format!("{:.1} min", s / 60.0),
-        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
-        s => format!("{:.1} days", s / 86_400.0),
-    }
 }
 
 #[cfg(test)]
@@ -105,18 +95,6 @@ mod tests {
                 let said = forecast(1.0, bytes).excess().expect("a refusal");
                 assert!(said.contains("GB of memory, and this process"), "{said}");
             }
-        }
-    }
-
-    #[test]
-    fn durations_are_told_in_the_unit_that_suits_them() {
-        for (seconds, said) in [
-            (90.0, "90.0 s"),
-            (600.0, "10.0 min"),
-            (9000.0, "2.5 h"),
-            (216_000.0, "2.5 days"),
-        ] {
-            assert_eq!(duration(seconds), said);
         }
     }
 }

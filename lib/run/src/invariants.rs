@@ -122,17 +122,8 @@ impl<'a> Reachable<'a> {
 
     /// Whether `point` (in the body's frame) is in an open voxel of the block that was not reached.
     fn is_closed_void(&self, point: [f64; 3]) -> bool {
-        let (origin, voxel, dims) = (self.block.origin(), self.block.voxel(), self.block.dims());
-        let mut at = [0; 3];
-        for a in 0..3 {
-            let x = (point[a] - origin[a]) / voxel[a];
-            if !(x >= 0.0 && x < dims[a] as f64) {
-                return false;
-            }
-            at[a] = x as usize;
-        }
-        let [x, y, z] = at;
-        !self.block.solid(x, y, z) && !self.open.get(x, y, z)
+        let closed = |[x, y, z]: [usize; 3]| !self.block.solid(x, y, z) && !self.open.get(x, y, z);
+        self.block.voxel_at(point).is_some_and(closed)
     }
 }
 

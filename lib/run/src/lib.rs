@@ -35,7 +35,7 @@ mod verdict;
 
 pub use bond_measures::{Answers, FilledByDepth, Sides};
 pub use case::REFERENCE;
-pub use changes::changed_case;
+pub use changes::{changed_case, value_at};
 pub use courant::Courant;
 pub use earlier_run::Mode;
 pub use ends::{Ahead, End};

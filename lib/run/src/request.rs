@@ -60,11 +60,8 @@ impl Request {
         let mut places = vec![case.to_owned()];
         let bond = match bond {
             Some(path) => {
-                places.push(if path == "-" {
-                    "/dev/stdin".into()
-                } else {
-                    path.into()
-                });
+                let stdin = path == Path::new("-");
+                places.push(if stdin { Path::new("/dev/stdin") } else { path }.into());
                 let file = ParticleFile::read(path)?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)

@@ -6,6 +6,7 @@ use physics::{Choice, Pid};
 use units::{Dimension, Length, Time};
 
 use crate::case::{Case, SchemeName, StopRule, Table, tables};
+use crate::changes::value_at;
 use crate::resolve::Setup;
 use crate::schemes;
 
@@ -27,7 +28,7 @@ pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
     let none = toml::Value::Table(toml::Table::new());
     let mut out = String::from(OPENING);
     for table in tables() {
-        let places = match found(&given, table.path) {
+        let places = match value_at(&given, table.path) {
             Some(toml::Value::Array(list)) => list.iter().collect(),
             Some(place) => vec![place],
             None if IMPLIED.contains(&table.path) => vec![&none],
@@ -49,7 +50,7 @@ fn table_text(table: &Table, place: &toml::Value, case: &Case, setup: &Setup) ->
         let name = key.name();
         let derived = || derived(&format!("{}.{name}", table.path), case, setup);
         let words = key.default().replace('`', "");
-        out += &match found(place, name) {
+        out += &match value_at(place, name) {
             Some(value) => format!("{name} = {value}"),
             None => match (derived(), key.value()) {
                 (Some(Some(value)), _) => format!("{name} = {value}{DEFAULT}"),
@@ -132,15 +133,9 @@ pub(crate) fn differences(texts: [&str; 2], part: fn(&str) -> String) -> Vec<Str
     let value = |of: Option<&toml::Value>| of.map_or("not given".to_owned(), ToString::to_string);
     paths
         .filter_map(|path| {
-            let [is, was] = [found(&is, &path), found(&was, &path)];
+            let [is, was] = [value_at(&is, &path), value_at(&was, &path)];
             (is != was).then(|| format!("{path} is {}, was {}", value(is), value(was)))
         })
         .take(TOLD)
         .collect()
-}
-
-/// The value below `place` at a dotted path.
-fn found<'a>(place: &'a toml::Value, path: &str) -> Option<&'a toml::Value> {
-    path.split('.')
-        .try_fold(place, |place, name| place.get(name))
 }

@@ -50,7 +50,10 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case, setup.scene.grid.cell_m)?, setup),
-        SchemeName::Implicit => Ok(implicit_forecast(&implicit(case)?, setup)),
+        SchemeName::Implicit => {
+            implicit::check(&setup.scene).map_err(RunFailure::Usage)?;
+            Ok(implicit_forecast(&implicit(case)?, setup))
+        }
     }
 }
 

@@ -8,8 +8,7 @@ use units::Axis;
 
 use crate::clock::Clock;
 use crate::failure::RunFailure;
-use crate::folder::snapshot_name;
-use crate::folder::{FINAL, RunFolder};
+use crate::folder::{FINAL, RunFolder, snapshot_name};
 use crate::resolve::{Setup, swap};
 
 const IDENTITY: &str = "identity";
@@ -66,14 +65,11 @@ impl<'a> SnapshotWriter<'a> {
     ) -> Self {
         let grid = &setup.scene.grid;
         let normal = setup.normal;
-        let (voxel_m, min, max) = match bond {
-            Some(file) => (
-                file.header().voxel_m,
-                file.header().box_min_m,
-                file.header().box_max_m,
-            ),
-            None => (0.5 * grid.cell_m, grid.min_m, grid.max_m()),
-        };
+        let own = (0.5 * grid.cell_m, grid.min_m, grid.max_m());
+        let (voxel_m, min, max) = bond.map_or(own, |file| {
+            let header = file.header();
+            (header.voxel_m, header.box_min_m, header.box_max_m)
+        });
         let mut header = Header::new(Kind::State, voxel_m, normal.index() as u8, min, max);
         if let Some(file) = bond {
             header.attributes.clone_from(&file.header().attributes);

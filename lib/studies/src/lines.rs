@@ -1,5 +1,7 @@
 //! Tables of scenes and settings as text: a line has a name and `key=value,value`, of which all combinations are meant.
 
+use std::cell::RefCell;
+
 /// The lines of a table but for empty ones and remarks, each read by `of_line`.
 ///
 /// # Panics
@@ -21,6 +23,8 @@ pub(crate) fn read<T>(
 pub(crate) struct Values {
     pub(crate) name: &'static str,
     values: Vec<(&'static str, &'static str)>,
+    /// Keys that were asked for.
+    asked: RefCell<Vec<&'static str>>,
 }
 
 impl Values {
@@ -30,6 +34,7 @@ impl Values {
         let mut all = vec![Self {
             name: words.next().unwrap_or_default(),
             values: Vec::new(),
+            asked: RefCell::default(),
         }];
         for (key, list) in words.filter_map(|word| word.split_once('=')) {
             let with = |before: &Self, value| {
@@ -43,17 +48,34 @@ impl Values {
         all
     }
 
-    pub(crate) fn word(&self, key: &str) -> Option<&'static str> {
+    /// The first key that nothing has asked for: a slip, where a key has a default.
+    pub(crate) fn stray(&self) -> Option<&'static str> {
+        let asked = self.asked.borrow();
+        let mut keys = self.values.iter().map(|(key, _)| *key);
+        keys.find(|key| !asked.contains(key))
+    }
+
+    pub(crate) fn word(&self, key: &'static str) -> Option<&'static str> {
+        self.asked.borrow_mut().push(key);
         let of = |(name, value): &(&str, &'static str)| (*name == key).then_some(*value);
         self.values.iter().find_map(of)
     }
 
-    pub(crate) fn number(&self, key: &str) -> Option<f64> {
-        self.word(key)?.parse().ok()
+    /// The number of a key; `none` is none.
+    ///
+    /// # Panics
+    /// At another word.
+    pub(crate) fn number(&self, key: &'static str) -> Option<f64> {
+        let word = self.word(key).filter(|word| *word != "none")?;
+        let number = word.parse();
+        Some(number.unwrap_or_else(|_| panic!("{}: {key}={word} is no number", self.name)))
     }
 
     /// A text with the values in the places of their `{keys}`.
     pub(crate) fn within(&self, text: &str) -> String {
+        let named = self.values.iter().map(|(key, _)| *key);
+        let named = named.filter(|key| text.contains(&format!("{{{key}}}")));
+        self.asked.borrow_mut().extend(named);
         crate::study::filled(text, &self.values)
     }
 }

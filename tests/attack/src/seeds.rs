@@ -84,16 +84,7 @@ pub(crate) fn bond() -> Vec<u8> {
     let bond = built.unwrap_or_else(|e| panic!("the bond of the seeds: {e}"));
     let mut header = header(Kind::Bond, bond.box_min_m, bond.box_max_m);
     header.set_attribute("gap_m", bond.gap_m);
-    let mut draft = Draft::new(header);
-    for (name, material, part) in [
-        ("wood-bottom", Material::Rigid, &bond.bottom),
-        ("wood-top", Material::Rigid, &bond.top),
-        ("adhesive", Material::Adhesive, &bond.slab),
-    ] {
-        let block = Block::new(name, material, part.origin_m, VOXEL, &part.bits);
-        draft = draft.block(block, &part.bits);
-    }
-    written(&draft)
+    written(&bond.draft(header))
 }
 
 /// Cases of bonds and of scenes with bodies.

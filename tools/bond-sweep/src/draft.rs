@@ -34,7 +34,7 @@ pub struct Draft {
     /// How its specimen is made, where it is a synthetic one.
     pub recipe: Option<Recipe>,
     changes: Vec<Change>,
-    /// The case with its changes.
+    /// The case with its changes, plain: one that is given its own values is no other run.
     pub text: String,
 }
 
@@ -50,7 +50,7 @@ impl Draft {
         let parsed = |changes: &[Change]| changed_case(&case, &texts(changes));
         match parsed(&changes) {
             Ok(text) => Ok(Self {
-                text: plain(&text),
+                text,
                 case,
                 job,
                 recipe,
@@ -81,14 +81,6 @@ impl Draft {
         resolved(&self.changes)
             .map_err(|refused| blamed(table, row, &self.changes, refused, resolved))
     }
-}
-
-/// The same case without comments and in one order of keys: one that is given its own values is no
-/// other run.
-fn plain(case: &str) -> String {
-    let table = toml::from_str::<toml::Table>(case).ok();
-    let text = table.and_then(|table| toml::to_string(&table).ok());
-    text.unwrap_or_else(|| case.to_owned())
 }
 
 fn texts(changes: &[Change]) -> Vec<String> {

@@ -11,9 +11,8 @@ const DIGITS: usize = 12;
 
 /// The header and the cells of each row; where a cell of the table is empty, what the run takes.
 pub fn columns(table: &Table, drafts: &[Draft]) -> (Vec<String>, Vec<Vec<String>>) {
-    let cases: Vec<Option<toml::Table>> = (drafts.iter())
-        .map(|draft| toml::from_str(&draft.text).ok())
-        .collect();
+    let case = |draft: &Draft| Some(toml::Value::Table(toml::from_str(&draft.text).ok()?));
+    let cases: Vec<_> = drafts.iter().map(case).collect();
     let mut header = Vec::new();
     let mut rows = vec![Vec::new(); drafts.len()];
     for (i, (name, kind)) in table.columns.iter().enumerate() {
@@ -46,17 +45,8 @@ fn of_recipe(recipe: &Recipe, option: &str) -> Option<String> {
 }
 
 /// The value at a key such as `clamp.pid.kp`.
-fn of_case(case: &toml::Table, key: &str) -> Option<String> {
-    let mut parts = key.split('.');
-    let mut value = case.get(parts.next()?)?;
-    for part in parts {
-        value = match value {
-            toml::Value::Table(table) => table.get(part)?,
-            toml::Value::Array(list) => list.get(part.parse::<usize>().ok()?)?,
-            _ => return None,
-        };
-    }
-    Some(match value {
+fn of_case(case: &toml::Value, key: &str) -> Option<String> {
+    Some(match run::value_at(case, key)? {
         toml::Value::String(text) => text.clone(),
         other => other.to_string(),
     })
@@ -137,7 +127,10 @@ mod tests {
 
     #[test]
     fn a_key_is_found_in_tables_and_lists() {
-        let case = toml::from_str("[a]\nb = { c = 0.5 }\nd = [1, \"2 um\"]\n").unwrap();
+        let case = "[a]\nb = { c = 0.5 }\nd = [1, \"2 um\"]\n"
+            .parse()
+            .map(toml::Value::Table);
+        let case = case.unwrap();
         assert_eq!(of_case(&case, "a.b.c").as_deref(), Some("0.5"));
         assert_eq!(of_case(&case, "a.d.1").as_deref(), Some("2 um"));
         assert_eq!(of_case(&case, "a.d.2"), None);

@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use bondline::{Bond, Error, Layup, Opening, Pieces, Placed, Specimen};
 use cli::Failure;
-use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
+use particle_file::{Header, Kind, ParticleFile, Provenance};
 use units::Axis;
 
 use arguments::Arguments;
@@ -186,14 +186,6 @@ fn write(
         .iter()
         .flat_map(|file| file.header().provenance.clone());
     header.provenance = before.chain([own]).collect();
-    let mut draft = Draft::new(header);
-    for (name, material, part) in [
-        ("wood-bottom", Material::Rigid, &bond.bottom),
-        ("wood-top", Material::Rigid, &bond.top),
-        ("adhesive", Material::Adhesive, &bond.slab),
-    ] {
-        let block = Block::new(name, material, part.origin_m, bond.voxel_m, &part.bits);
-        draft = draft.block(block, &part.bits);
-    }
+    let draft = bond.draft(header);
     arguments.output.write(|out| draft.write_to(out))
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use cli::Failure;
-use particle_file::{by_time, in_folder, states_of_run};
+use particle_file::{RUN_MARK, by_time, file_of_run, in_folder, states_of_run};
 
 use crate::arguments::Arguments;
 
@@ -30,8 +30,13 @@ pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     by_time(states).map_err(Failure::data)
 }
 
-/// A file or a folder of slices itself, or the particle files of a folder of those.
+/// A file or a folder of slices itself, the last state of a run, or the particle files of a folder of those.
 fn specimens(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if path.join(RUN_MARK).is_file() {
+        return Ok(vec![
+            file_of_run(path, "final.mpts").map_err(Failure::data)?,
+        ]);
+    }
     let files = in_folder(path);
     if files.is_empty() {
         return Ok(vec![path.to_owned()]);

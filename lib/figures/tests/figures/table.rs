@@ -86,8 +86,9 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         let cells: Vec<&str> = line.split(',').take(7).collect();
         cells.join(",") + "\n"
     });
+    let pressed: String = pressed.collect();
     let runs = [
-        case("flip", &pressed.collect::<String>()),
+        case("flip", &pressed),
         case("frictionless", &plain),
         case("implicit", &finer(7.65)),
         case("implicit-frictionless", &finer(6.0).replace("7.15", "6.5")),
@@ -142,6 +143,25 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         let line = text.lines().rfind(|line| line.contains(name)).unwrap();
         assert!(line.contains(told), "{line}");
     }
+    // Beside a run that closed, one that stood still with half of the gap left.
+    let open = Folder::new();
+    for (place, gap_m) in [(&open, 5e-6), (&folder, 0.0)] {
+        place.file("bondline-run.toml", "");
+        let summary =
+            r#"{"end": "closed", "verdict": {"sound": true}, "travel_m": 5e-6, "gap_m": "#;
+        place.file("summary.json", format!("{summary}{gap_m}}}"));
+    }
+    let flip = Case {
+        path: open.file("wp.csv", pressed.replace("a.mpts", "final.mpts")),
+        ..case("flip", "")
+    };
+    let apart = [
+        flip,
+        case("implicit", &pressed_to("final.mpts", "2.1e6,3e5")),
+    ];
+    let rows = written(|out| Table2::read(&apart).unwrap().write_cell_errors(out));
+    let row = "pf,flip,pressure,total,MPa,2.4000,,,,";
+    assert!(rows.iter().any(|line| line == row), "{rows:#?}");
     let alone = Table2::read(&[case("alone", &plain)]).unwrap();
     assert!(!alone.has_cell_errors());
 }

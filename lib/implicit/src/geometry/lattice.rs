@@ -45,36 +45,52 @@ pub(crate) struct Moving {
     pub(crate) down: bool,
 }
 
+/// Refuses a scene that the scheme has no grid for, without making one.
+///
+/// # Errors
+/// A sentence on what does not lie on voxels or moves otherwise than a clamp, bodies that meet within their travel among it.
+pub fn check(scene: &Scene) -> Result<(), String> {
+    checked(scene).map(|_| ())
+}
+
+/// Where the gap of a scene lies, and how many voxels a cell has along its edge.
+fn checked(scene: &Scene) -> Result<(Frames, usize), String> {
+    // Codes of bodies lie between those.
+    let most = usize::from(MIRROR - OPEN) - 1;
+    if scene.bodies.len() > most {
+        return Err(format!(
+            "the scene has {} rigid bodies; the implicit scheme takes at most {most}",
+            scene.bodies.len()
+        ));
+    }
+    let frames = Frames::new(scene)?;
+    // One voxel a cell where every face lies on those of cells.
+    let k = match off_lattice(scene, &frames, scene.grid.cell_m) {
+        None => 1,
+        Some(_) => 2,
+    };
+    let edge = scene.grid.cell_m / k as f64;
+    if let Some((body, a)) = off_lattice(scene, &frames, edge) {
+        return Err(format!(
+            "the faces of body '{}' lie off the lattice along {}: the implicit scheme takes cells of one or two \
+             voxels, or a whole number of cells a voxel, and boxes on the faces of cells or half way between them",
+            body.name,
+            ["x", "y", "z"][a]
+        ));
+    }
+    check_motions(scene, &frames)?;
+    Ok((frames, k))
+}
+
 impl Lattice {
     /// The lattice of a scene.
     ///
     /// # Errors
     /// A sentence on what of the scene does not lie on the voxels or moves otherwise than a clamp.
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
+        let (frames, k) = checked(scene)?;
         let grid = &scene.grid;
-        // Codes of bodies lie between those.
-        let most = usize::from(MIRROR - OPEN) - 1;
-        if scene.bodies.len() > most {
-            return Err(format!(
-                "the scene has {} rigid bodies; the implicit scheme takes at most {most}",
-                scene.bodies.len()
-            ));
-        }
-        let frames = Frames::new(scene)?;
-        // One voxel a cell where every face lies on those of cells.
-        let k = match off_lattice(scene, &frames, grid.cell_m) {
-            None => 1,
-            Some(_) => 2,
-        };
         let edge = grid.cell_m / k as f64;
-        if let Some((body, a)) = off_lattice(scene, &frames, edge) {
-            return Err(format!(
-                "the faces of body '{}' lie off the lattice along {}: the implicit scheme takes cells of one or two \
-                 voxels, or a whole number of cells a voxel, and boxes on the faces of cells or half way between them",
-                body.name,
-                ["x", "y", "z"][a]
-            ));
-        }
         let across = [0, 2].map(|a| grid.cells[a] * k);
         let layers = |from: f64, to: f64| ((to - from) / edge + ALIGNED).floor().max(0.0) as usize;
         let [low, high] = [grid.min_m[1], grid.max_m()[1]];
@@ -97,7 +113,6 @@ impl Lattice {
             .map(|n| layer(top + (n as f64 + 0.5) * edge))
             .collect();
         let gap = layer(0.5 * (bottom + top));
-        check_motions(scene, &frames)?;
         Ok(Self {
             k,
             cells: [grid.cells[0], grid.cells[2]],

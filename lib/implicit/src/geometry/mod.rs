@@ -12,6 +12,7 @@ mod split;
 mod voxels;
 
 pub(crate) use chords::{Chords, Place};
+pub use lattice::check;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, Way, others};
 pub(crate) use passages::narrowness;

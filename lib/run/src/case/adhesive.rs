@@ -105,13 +105,15 @@ impl<'de> Deserialize<'de> for Kelvin {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         /// 0 C, K.
         const ICE: f64 = 273.15;
+        /// Above it wood is none, K.
+        const MOST: f64 = 1000.0;
         let text = String::deserialize(reader)?;
         let number = |unit: &str| text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok();
         let celsius = ["°C", "degC", "C"].into_iter().find_map(number);
         let kelvin = number("K").or(celsius.map(|t| t + ICE));
-        kelvin.filter(|t| t.is_finite() && *t > 0.0).map(Self).ok_or_else(|| {
+        kelvin.filter(|t| *t > 0.0 && *t <= MOST).map(Self).ok_or_else(|| {
             R::Error::custom(format!(
-                "'{text}' is not accepted: a temperature such as \"140 C\" or \"413 K\" is needed"
+                "'{text}' is not accepted: a temperature up to {MOST} K such as \"140 C\" or \"413 K\" is needed"
             ))
         })
     }

@@ -24,12 +24,13 @@ pub(crate) fn read(
     if header.kind != Kind::Checkpoint {
         return Err(bad("it is no checkpoint".into()));
     }
-    let written = header.attribute(FORMAT).is_some();
-    if written && header.attribute(IDENTITY) != Some(&origin.identity) {
+    if header.attribute(IDENTITY) != Some(&origin.identity) {
         let another = "it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew";
         return refused(format!("{}: {another}{}", path.display(), changed()));
     }
-    another_build(header, origin).map_or(Ok(()), |said| Err(bad(said)))?;
+    if let Some(said) = another_build(header, origin) {
+        return refused(format!("{}: {said}", path.display()));
+    }
     content(&file).map(Some).map_err(bad)
 }
 
@@ -39,25 +40,16 @@ fn another_build(header: &Header, origin: &Origin) -> Option<String> {
     let of = |tool: &str, version: &str, format: &str| {
         format!("{tool} {version} in the checkpoint format '{format}'")
     };
-    let writer = match (header.provenance.last(), header.attribute(FORMAT)) {
-        (Some(by), Some(format)) if by.version == here.version && format == origin.format => {
-            return None;
-        }
-        (Some(by), Some(format)) => of(&by.tool, &by.version, format),
-        // Before formats had names the identity began with the version.
-        _ => {
-            let version = (header.attribute(IDENTITY)).and_then(|text| text.split(' ').next());
-            let version = version.unwrap_or("of unknown version");
-            format!(
-                "a build of {} {version} whose checkpoints do not name their format",
-                here.tool
-            )
-        }
-    };
-    Some(format!(
-        "it was written by {writer}, and this is {}; continue the run with the build that wrote it, or use --overwrite to start anew",
-        of(&here.tool, &here.version, &origin.format)
-    ))
+    let format = header.attribute(FORMAT).unwrap_or_default();
+    let writer = header.provenance.last()?;
+    let same = writer.version == here.version && format == origin.format;
+    (!same).then(|| {
+        format!(
+            "it was written by {}, and this is {}; continue the run with the build that wrote it, or use --overwrite to start anew",
+            of(&writer.tool, &writer.version, format),
+            of(&here.tool, &here.version, &origin.format)
+        )
+    })
 }
 
 /// What a checkpoint of this build holds.

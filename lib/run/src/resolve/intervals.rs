@@ -31,8 +31,11 @@ impl Overlap {
         let (below, above) = (b[0] + slack - a[1], b[1] - slack - a[0]);
         let most = (a[1] - a[0]).min(b[1] - b[0]);
         let always = |most| Self {
+            begin: f64::NEG_INFINITY,
+            end: f64::INFINITY,
+            period: f64::INFINITY,
+            speed: 0.0,
             most,
-            ..Self::between(f64::NEG_INFINITY, f64::INFINITY)
         };
         if v == 0.0 {
             let shared = a[1].min(b[1]) - a[0].max(b[0]);
@@ -49,17 +52,6 @@ impl Overlap {
             speed: v.abs(),
             most,
         })
-    }
-
-    /// A time that comes once.
-    pub(super) fn between(begin: f64, end: f64) -> Self {
-        Self {
-            begin,
-            end,
-            period: f64::INFINITY,
-            speed: 0.0,
-            most: f64::INFINITY,
-        }
     }
 
     /// The first begin and end of which the end is after `time`.
@@ -214,17 +206,20 @@ mod tests {
         assert!((200..400).contains(&found), "{found}");
     }
 
+    /// A box as long as a period is everywhere along it, and what overlaps on purpose at first may collide when it comes round.
     #[test]
-    fn a_box_as_long_as_a_period_is_everywhere_along_it() {
+    fn boxes_meet_in_a_later_period() {
         let plate = ([0.0, 5.0, 0.0], [8.0, 6.0, 1.0]);
         let post = ([3.0, 0.0, 0.0], [4.0, 2.0, 1.0]);
+        let block = ([3.6, 1.0, 0.0], [3.9, 3.0, 1.0]);
         let lengths = [8.0, f64::INFINITY, f64::INFINITY];
         assert_eq!(met(plate, post, [5.0, 0.0, 0.0], lengths), None);
-        let time = met(plate, post, [5.0, -0.1, 0.0], lengths).unwrap();
-        assert!((time - 30.0).abs() < 1e-6, "{time}");
-        // What overlaps on purpose at first may yet collide when it comes round.
-        let block = ([3.6, 1.0, 0.0], [3.9, 3.0, 1.0]);
-        let time = met(block, post, [1.0, 0.0, 0.0], lengths).unwrap();
-        assert!((time - 7.1).abs() < 1e-6, "{time}");
+        for (body, v, when) in [
+            (plate, [5.0, -0.1, 0.0], 30.0),
+            (block, [1.0, 0.0, 0.0], 7.1),
+        ] {
+            let time = met(body, post, v, lengths).unwrap();
+            assert!((time - when).abs() < 1e-6, "{time}");
+        }
     }
 }

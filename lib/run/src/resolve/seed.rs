@@ -1,6 +1,6 @@
 //! Material points of the liquid at the start: counted before they are made.
 
-use physics::{Amount, Seed, VoxelBlock};
+use physics::{Amount, Seed, VoxelBlock, norm};
 
 /// Largest number of material points a run accepts: beyond it the request is a mistake.
 const MOST_POINTS: u64 = 2_000_000_000;
@@ -57,7 +57,7 @@ impl Lattice {
             volume_m3: self.count() as f64 * self.point_volume(),
             low_m: self.at([0; 3]),
             high_m: self.at(self.n.map(|n| n - 1)),
-            speed: self.velocity.iter().map(|v| v * v).sum::<f64>().sqrt(),
+            speed: norm(self.velocity),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The judgement of a run's last state.
 
-use physics::{LiquidState, Scene, WaterState};
+use physics::{LiquidState, Scene, WaterState, norm};
 
 use super::{Verdict, faster_than_sound};
 use crate::invariants::Invariants;
@@ -32,7 +32,8 @@ pub(crate) fn judge(
     if let Some(name) = not_finite(liquid) {
         reasons.push(format!("a {name} of the liquid is not a finite number"));
     }
-    reasons.extend(faster_than_sound(&setup.scene, largest_speed(liquid)));
+    let speeds = liquid.velocity.iter().map(|v| norm(v.map(f64::from)));
+    reasons.extend(faster_than_sound(&setup.scene, speeds.fold(0.0, f64::max)));
     let (left, begun) = (liquid.position.len() as u64, setup.liquid.points);
     if follows && left + lost != begun {
         reasons.push(format!(
@@ -86,14 +87,6 @@ pub(crate) fn judge(
         ));
     }
     Verdict::because(reasons)
-}
-
-/// Largest speed of a point, m/s.
-fn largest_speed(liquid: &LiquidState) -> f64 {
-    let square = |v: &[f32; 3]| v.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>();
-    (liquid.velocity.iter().map(square))
-        .fold(0.0, f64::max)
-        .sqrt()
 }
 
 /// First kind of number of the state that is not finite somewhere.

@@ -150,9 +150,8 @@ fn a_file_that_is_no_bond_is_refused() {
         }),
     ];
     for (sentence, change) in corrupt {
-        match read(change) {
-            Err(RunFailure::Data(said)) => has(&said, &[sentence]),
-            other => panic!("{sentence}: {other:?}"),
-        }
+        let said = read(change).unwrap_err();
+        assert!(matches!(said, RunFailure::Data(_)), "{said}");
+        has(&said.to_string(), &[sentence]);
     }
 }

@@ -140,6 +140,11 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "both with the default Courant number",
     ];
     says(&[], &coarser, &lines);
+    // Boxes on the faces of cells, and cells of 17.4 um over 4.
+    let coarser = [
+        "grid.cell=4 um",
+        "grid.domain.max=[\"20 um\", \"32 um\", \"8 um\"]",
+    ];
     let wp = "WP about 1.0 % (a small bond line), about 1.5 % (two sizes of cells, the worst of the bonds of make)";
     says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);

@@ -8,6 +8,12 @@ const GEL: &str = "[adhesive.cure]\ngel_time = \"1 s\"\nexponent = 2.0\n[contact
 const WATER: &str = "[adhesive.water]\nsolids = 0.45\nuptake = \"1 um/s\"\ndiffusivity = \"1e-10 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]\n[contact]";
 const HEATED: &str = "[adhesive.cure]\ngel_time = \"1 s\"\nexponent = 2.0\nactivation_energy = \"80 kJ/mol\"\n[contact]";
 
+/// A ridge of the floor, beside the plate and on its way down to the floor.
+const RIDGE: (&str, &str) = (
+    "[boundary]",
+    "[[body]]\nmaterial = \"rigid\"\nbox = { min = [\"0 um\", \"4 um\", \"0 um\"], max = [\"2 um\", \"8 um\", \"8 um\"] }\n[boundary]",
+);
+
 type Refused = (
     &'static [(&'static str, &'static str)],
     &'static [&'static str],
@@ -31,6 +37,8 @@ const REFUSED: &[Refused] = &[
     (&[IMPLICIT[0], IMPLICIT[1], ("[contact]", WATER)], &["adhesive.water.walls=[\"nobody\"]"], "[adhesive.water] walls has 'nobody'"),
     (&[IMPLICIT[0], IMPLICIT[1], ("[contact]", HEATED)], &[], "temperature, reference_temperature and activation_energy"),
     (&[("travel = \"3 um\"\n", "")], &[], "travel"),
+    (&[IMPLICIT[0], IMPLICIT[1], RIDGE], &["clamp.travel=4 um", "body.2.box.min.0=4 um"], "meet after 2.0000 um: the implicit scheme closes one gap"),
+    (&[IMPLICIT[0], IMPLICIT[1], ("[contact]", HEATED)], &["adhesive.cure.reference_temperature=1400 C"], "a temperature up to 1000 K"),
     (&[], &["grid.dimensions=2", "boundary.z=open"], "plane strain"),
     (&[("velocity = \"clamp\"\n", "")], &[], "[clamp] has nothing to move"),
     (&[], &["body.3.box.min.1=0.5 m"], "'3' is no index of an array of 3, which counts from 0"),

@@ -21,7 +21,7 @@ pub fn shapes() -> Vec<Shape> {
     lines::read(include_str!("shapes.txt"), |line| {
         let (name, words) = line.split_once(" | ")?;
         let shape = |of: Values| {
-            let n = |key: &str| of.number(key);
+            let n = |key| of.number(key);
             let off = n("off")?;
             let press = Press {
                 width: n("width")?,
@@ -33,7 +33,7 @@ pub fn shapes() -> Vec<Shape> {
                 travel: n("travel")?,
                 depth: [n("deep")?, n("wet")?],
             };
-            Some(Shape { name, press })
+            of.stray().is_none().then_some(Shape { name, press })
         };
         Values::all(words).into_iter().map(shape).collect()
     })

@@ -33,6 +33,7 @@ fn of_line(line: &'static str) -> Option<Vec<Trial>> {
         if let Some(("law", law)) = more {
             scene.case.viscosity = Viscosity::Law(law.into());
         }
+        let cfl = of.number("cfl").unwrap_or(CFL);
         for (option, method) in &methods {
             let value = of.within(value).replace("{option}", option);
             scene.case.title = format!("{varied}: {value}.");
@@ -44,8 +45,11 @@ fn of_line(line: &'static str) -> Option<Vec<Trial>> {
                     Some(("set", key)) => method.clone().setting(of.within(key)),
                     _ => method.clone(),
                 },
-                cfl: of.number("cfl").unwrap_or(CFL),
+                cfl,
             });
+        }
+        if of.stray().is_some() {
+            return None;
         }
     }
     Some(trials)

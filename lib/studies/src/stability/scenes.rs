@@ -80,7 +80,7 @@ pub(crate) const PVA_PF: [[f64; 2]; 4] = [
 
 /// The scene of a line, with its liquid and walls.
 pub(super) fn of(values: &Values) -> Option<Scene> {
-    let number = |key: &str, usual| values.number(key).unwrap_or(usual);
+    let number = |key: &'static str, usual| values.number(key).unwrap_or(usual);
     let mut scene = match values.name {
         "press" => press(values),
         "sealed" => sealed_lumen(values),
@@ -105,7 +105,7 @@ pub(super) fn of(values: &Values) -> Option<Scene> {
 /// An upper body presses a slab of liquid into a lumen of the lower one, or where there is none in a sealed chamber; floors a
 /// quarter cell off the nodes, the walls of the lumen half a cell.
 fn press(values: &Values) -> Scene {
-    let number = |key: &str, usual| values.number(key).unwrap_or(usual);
+    let number = |key: &'static str, usual| values.number(key).unwrap_or(usual);
     let (width, lumen, speed) = (16.0, number("lumen", 6.0), number("speed", 1.0));
     let [left, right] = [-0.5, 0.5].map(|side| 0.5 * width + side * lumen + 0.5);
     let shape = Press {

@@ -14,10 +14,11 @@ pub(super) fn all() -> Vec<(Scene, Vec<Method>)> {
     lines::read(include_str!("catalogue.txt"), |line| {
         let (words, labels) = line.split_once(" | ")?;
         let entry = |values: Values| {
+            let scene = scene_of(&values)?;
             let halves = ["0", "0.5"].contains(&values.word("off").unwrap_or("0"));
             let mut methods: Vec<Method> = labels.split(' ').flat_map(methods).collect();
             methods.retain(|m| halves || m.scheme == Scheme::Explicit);
-            Some((scene_of(&values)?, methods))
+            Some((scene, methods))
         };
         Values::all(words).into_iter().map(entry).collect()
     })
@@ -51,11 +52,13 @@ fn scene_of(of: &Values) -> Option<Scene> {
     let [off, degrees, eta] = ["off", "degrees", "eta"].map(|key| move || of.number(key));
     let section = || {
         let all = [Section::Square, Section::Round(2), Section::Round(1)];
-        all.into_iter()
-            .find(|s| of.word("section") == Some(s.name()))
+        let name = of.word("section").filter(|name| *name != "slit")?;
+        let found = all.into_iter().find(|s| s.name() == name);
+        Some(found.unwrap_or_else(|| panic!("there is no section {name}")))
     };
     let or = |key, usual| of.number(key).unwrap_or(usual);
-    let (depth, slowing) = (or("depth", 1.5), or("slowing", 0.0));
+    let [depth, slowing] =
+        [("depth", 1.5), ("slowing", 0.0)].map(|(key, usual)| move || or(key, usual));
     let mut scene = match of.name {
         "incline" => incline::scene(n()?, off()?, of.number("until")?),
         "channel" => channel::scene(n()?, off()?, of.number("slip"), 3e-6),
@@ -86,8 +89,8 @@ fn scene_of(of: &Values) -> Option<Scene> {
         },
         "air" => air::scene(n()?, of.number("leak")),
         "wicking" => match section() {
-            Some(section) => wicking::tube_scene(section, n()?, depth, degrees()?, slowing),
-            None => wicking::slit_scene(n()?, [off()?, of.number("along")?], degrees()?, slowing),
+            Some(section) => wicking::tube_scene(section, n()?, depth(), degrees()?, slowing()),
+            None => wicking::slit_scene(n()?, [off()?, of.number("along")?], degrees()?, slowing()),
         },
         "jurin" => wicking::jurin_scene(n()?, off()?, degrees()?),
         "spheres" => {
@@ -116,12 +119,23 @@ fn scene_of(of: &Values) -> Option<Scene> {
         _ => return None,
     };
     scene.case.stop = of.number("stop").or(scene.case.stop);
-    Some(scene)
+    of.stray().is_none().then_some(scene)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// It was passed over where the key has a default.
+    #[test]
+    fn a_misspelt_key_or_value_is_refused() {
+        assert!(scenes("wicking n=6 off=0 along=0 degrees=60 slowing=5").is_some());
+        assert!(scenes("wicking n=6 off=0 along=0 degrees=60 slow=5").is_none());
+        assert!(scenes("clamp n=3").is_none());
+        for words in ["air n=6 leak=nine", "water section=tubes n=6"] {
+            assert!(std::panic::catch_unwind(|| scenes(words)).is_err());
+        }
+    }
 
     #[test]
     fn names_are_unique_series_known_and_every_scene_has_methods_and_goal_scenes() {

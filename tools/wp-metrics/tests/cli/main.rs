@@ -153,6 +153,13 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
     bench
         .run("--series empty")
         .refused(3, "is not a run folder of mpm-run");
+    // It was said to hold no slices.
+    bench.write(&format!("empty/{}", particle_file::RUN_MARK), "");
+    bench
+        .run("empty")
+        .refused(3, "a run that has written no final.mpts yet");
+    let compared = bench.run("run/final.mpts --compare run/snapshots/0000.mpts");
+    compared.refused(2, "what it is to be compared with is no specimen");
 }
 
 #[test]
