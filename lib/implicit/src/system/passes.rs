@@ -12,9 +12,7 @@ pub(crate) const PASSES: usize = 30;
 /// Largest exponent of a rate that is anticipated, and how near it is found.
 const FARTHEST: f64 = 30.0;
 const NEAR: f64 = 0.05 * SETTLED;
-/// Mean square of the changes of ln(viscosity) below which they tell nothing of the answer.
-const UNMOVED: f64 = 1e-6;
-/// Mean change of ln(viscosity), weighted by dissipation, that ends the passes.
+/// Mean change of ln(viscosity), weighted by dissipation, that ends the passes; a smaller one tells nothing of the answer.
 const SETTLED: f64 = 2e-3;
 
 /// The viscosities that the flow of a step is sought with, pass by pass, for a liquid whose viscosity depends on the rate.
@@ -99,7 +97,7 @@ impl Pass {
                 weight += power;
             }
         }
-        match cause > UNMOVED * weight {
+        match cause > SETTLED * SETTLED * weight {
             true => 0.5 * (last + (answer / cause).clamp(-1.0, 0.0)),
             false => last,
         }

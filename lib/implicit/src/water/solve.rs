@@ -4,8 +4,6 @@ use crate::system::PASSES;
 
 /// Relative residual of the solution, so far below what a step moves that a run loses no water by it; a smaller one is rounding.
 const TOLERANCE: f64 = 1e-10;
-/// Iterations to reach it at most, so that what has no balance ends.
-const MAX_ITERATIONS: usize = 2000;
 /// Part of the limit by which X may fall short of it: above what the solution is off by.
 const HAIR: f64 = 10.0 * TOLERANCE;
 
@@ -94,7 +92,8 @@ fn gradients(nodes: &[Node], held: &[bool], ratio: &mut [f64]) -> bool {
     let mut correction = scaled(&rest);
     let mut way = correction.clone();
     let mut size = dot(&rest, &correction);
-    for _ in 0..MAX_ITERATIONS {
+    // But for rounding, as many steps as there are unknowns are enough.
+    for _ in 0..=count {
         if dot(&rest, &rest) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
             return true;
         }
