@@ -177,7 +177,7 @@ fn strip(below: &Column, above: &Column) -> [f32; 2] {
 /// What a column is, and by how much its rays are wider than one cell, to each side. A species
 /// of one kind takes no random numbers for it.
 fn kind(traits: &'static RayTraits, random: &mut ChaCha8Rng) -> (&'static RayKind, f32) {
-    let [first, others @ ..] = traits.kinds else {
+    let [first, others @ ..] = &traits.kinds[..] else {
         unreachable!("a species has rays")
     };
     let kind = match others {

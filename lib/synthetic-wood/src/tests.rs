@@ -42,6 +42,8 @@ fn wood_has_the_anatomy_of_its_species() {
         wood(Species::Spruce, [600, 560, 60], 1),
     ] {
         let (species, specimen) = (recipe.species, Specimen::grow(&recipe).unwrap());
+        let named = species.timber().targets.keys();
+        assert!(named.into_iter().all(|name| Anatomy::NAMES.contains(&&**name)));
         let values = specimen.anatomy().values;
         for ((name, target), value) in Anatomy::NAMES.iter().zip(species.targets()).zip(values) {
             let Some(target) = target else { continue };
