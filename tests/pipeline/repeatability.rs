@@ -37,7 +37,7 @@ fn every_tool_writes_the_same_bytes_for_any_threads() {
     bench.press("run", &["clamp.stop=0.05 us"], "");
     for line in [
         "synth-xct --adhesive pf --size 64x96x40 -o -",
-        "synth-xct --adhesive none --species spruce --size 40x60x30 -o -",
+        "synth-xct --adhesive none --species spruce --size 40x60x30 --voxel 200nm -o -",
         &format!("xct2particles specimen.npy --voxel {VOXEL} -o -"),
         "build-bondline specimen.mpts -o -",
         "wp-metrics run/final.mpts --compare specimen.mpts",

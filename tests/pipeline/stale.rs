@@ -5,6 +5,7 @@ use std::fs;
 use std::time::{Duration, SystemTime};
 
 use studies::outputs;
+use voxels::TiffWriter;
 
 use crate::clone::{clone, make, table};
 use crate::workbench::{Workbench, grooved, npy, npy_header, said};
@@ -46,37 +47,13 @@ fn old(bench: &Workbench, name: &str, content: &[u8]) {
     file.and_then(|file| file.set_modified(moment)).unwrap();
 }
 
-/// A slice as an 8-bit BMP of its labels.
-fn bmp(z: usize) -> Vec<u8> {
-    let (nx, ny) = (16_u32, 32_u32);
-    let size = nx * ny;
-    let header = [
-        1078 + size,
-        0,
-        1078,
-        40,
-        nx,
-        ny,
-        1 | 8 << 16,
-        0,
-        size,
-        0,
-        0,
-        256,
-        0,
-    ];
-    let header = header.into_iter().flat_map(u32::to_le_bytes);
-    let colours = (0..=255).flat_map(|grey| [grey, grey, grey, 0]);
-    let labels = (0..32)
-        .rev()
-        .flat_map(|y| (0..16).map(move |x| grooved(x, y, z)));
-    let bytes = b"BM"
-        .iter()
-        .copied()
-        .chain(header)
-        .chain(colours)
-        .chain(labels);
-    bytes.collect()
+/// A slice as a TIFF of its labels.
+fn slice(z: usize, label: fn(usize, usize, usize) -> u8) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let page: Vec<u8> = (0..16 * 32).map(|i| label(i % 16, i / 16, z)).collect();
+    let mut tiff = TiffWriter::new(&mut bytes, [16, 32, 1], 1.45e-6, "").unwrap();
+    tiff.write_page(&page).and_then(|()| tiff.finish()).unwrap();
+    bytes
 }
 
 /// A stack with another label in the wood of its left half.
@@ -84,6 +61,15 @@ fn labelled(x: usize, y: usize, z: usize) -> u8 {
     match grooved(x, y, z) {
         128 if x < 8 && y < 14 => 77,
         label => label,
+    }
+}
+
+/// One with wood in all but a few rows of the upper half.
+fn filled(x: usize, y: usize, z: usize) -> u8 {
+    if (16..26).contains(&y) {
+        128
+    } else {
+        grooved(x, y, z)
     }
 }
 
@@ -143,19 +129,17 @@ fn what_a_stack_consists_of_is_looked_at() {
     kept.changed("data of a header", &wood);
     fs::create_dir(bench.path("slices")).unwrap();
     for z in 0..12 {
-        bench.write(&format!("slices/s{z:02}.bmp"), bmp(z));
+        bench.write(&format!("slices/s{z:02}.tif"), slice(z, grooved));
     }
     let slices = ["XCT_PF=slices", "VOXEL=1.45 um"];
     kept.changed("slices", &slices);
-    let mut edited = bmp(7);
-    edited[1078 + 6 * 16..1078 + 16 * 16].fill(128);
-    old(&bench, "slices/s07.bmp", &edited);
+    old(&bench, "slices/s07.tif", &slice(7, filled));
     kept.changed("a slice edited in place", &slices);
     for z in [12, 13] {
-        old(&bench, &format!("slices/s{z}.bmp"), &bmp(z));
+        old(&bench, &format!("slices/s{z}.tif"), &slice(z, grooved));
     }
     kept.changed("more slices", &slices);
-    bench.done("rm slices/s1[23].bmp");
+    bench.done("rm slices/s1[23].tif");
     kept.changed("fewer slices", &slices);
     kept.changed("NORMAL", &["XCT_PF=slices", "VOXEL=1.45 um", "NORMAL=x"]);
 }

@@ -8,6 +8,7 @@ use studies::case_text::{PF, Viscosity};
 use studies::job::{Outcome, run_one};
 use studies::load_control::{self, report::sound, scenes::shapes};
 use studies::method::Method;
+use studies::numbers;
 use studies::verification::lumen::Section;
 use studies::verification::{Scene, methods, piston, scenes, slit};
 
@@ -117,14 +118,6 @@ fn errors(scene: &Scene, method: &Method, what: &str) -> Vec<f64> {
     })
 }
 
-/// Mean and standard deviation.
-fn spread(values: &[f64]) -> [f64; 2] {
-    let mean =
-        |of: &dyn Fn(f64) -> f64| values.iter().map(|&x| of(x)).sum::<f64>() / values.len() as f64;
-    let middle = mean(&|x| x);
-    [middle, mean(&|x| (x - middle).powi(2)).sqrt()]
-}
-
 /// What fronts in ducts and tubes take, with one voxel a cell and with two, deviates little from a straight line between 1.5 and
 /// 2.5 filled diameters, over the pressure of developed flow over one.
 #[test]
@@ -147,13 +140,8 @@ fn pressures_of_pistons_grow_along_straight_lines() {
         let rows = time.iter().zip(&step).zip(&pressure);
         let rows = rows.map(|((t, dt), p)| (per_second * (t - 0.5 * dt), p * scale));
         let rows: Vec<(f64, f64)> = rows.filter(|(at, _)| (1.5..2.5).contains(at)).collect();
-        let mean = |of: &dyn Fn(f64, f64) -> f64| {
-            rows.iter().map(|&(x, y)| of(x, y)).sum::<f64>() / rows.len() as f64
-        };
-        let (x, y) = (mean(&|x, _| x), mean(&|_, y| y));
-        let slope = mean(&|a, b| (a - x) * (b - y)) / mean(&|a, _| (a - x).powi(2));
-        let off: Vec<f64> = rows.iter().map(|(a, b)| b - slope * a).collect();
-        let [_, off] = spread(&off);
+        let [at_zero, slope] = numbers::line(&rows);
+        let off = numbers::rms(rows.iter().map(|(x, y)| y - at_zero - slope * x));
         let name = section.name();
         println!(
             "{name} of {n} cells: deviation {off:.4} of {} steps",
@@ -174,7 +162,9 @@ fn a_piston_into_a_slit() {
                 errors(&scene, &method, "piston force at")
             });
             for width in 0..4 {
-                let [middle, deviation] = spread(&all.each_ref().map(|errors| errors[width]));
+                let errors = all.each_ref().map(|errors| errors[width]);
+                let middle = numbers::mean(errors.into_iter());
+                let deviation = numbers::rms(errors.iter().map(|error| error - middle));
                 let length = width + 1;
                 println!("slit-n{n}-off{offset}, L = {length} H: {middle:+.2e} +- {deviation:.1e}");
                 assert!(middle.abs() < most && deviation < deviates);

@@ -17,7 +17,7 @@ pub mod leave_out;
 mod lines;
 pub mod load_control;
 pub mod method;
-mod numbers;
+pub mod numbers;
 pub mod options;
 pub mod outputs;
 mod press;

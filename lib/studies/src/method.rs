@@ -79,13 +79,10 @@ impl Method {
         Self::named("implicit")
     }
 
-    /// Every update of the explicit scheme.
-    pub fn updates() -> Vec<Self> {
-        let filters = ["XPIC(2)", "XPIC(5)", "FMPM(2)", "FMPM(5)"];
-        (["FLIP", "PIC", "APIC"].iter().chain(&filters))
-            .map(|label| Self::named(label))
-            .collect()
-    }
+    /// Every update of the explicit scheme, in the order of tables.
+    pub(crate) const UPDATES: [&str; 9] = [
+        "FLIP", "PIC", "APIC", "XPIC(2)", "XPIC(3)", "XPIC(5)", "FMPM(2)", "FMPM(3)", "FMPM(5)",
+    ];
 
     /// This method with another key set.
     pub fn setting(mut self, change: impl Into<String>) -> Self {

@@ -26,13 +26,13 @@ pub(crate) fn last(high: f64, holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// Arithmetic mean; NaN of nothing.
-pub(crate) fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
+pub fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = numbers.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
     sum / count
 }
 
 /// Root of the mean square; NaN of nothing.
-pub(crate) fn rms(numbers: impl Iterator<Item = f64>) -> f64 {
+pub fn rms(numbers: impl Iterator<Item = f64>) -> f64 {
     mean(numbers.map(|x| x * x)).sqrt()
 }
 
@@ -51,16 +51,20 @@ pub(crate) fn at_middle(x: &[f64], y: &[f64], from: f64, to: f64) -> Option<f64>
     let middle = 0.5 * (from + to);
     let rows = x.iter().zip(y).filter(|(x, _)| (from..to).contains(*x));
     let rows: Vec<_> = rows.map(|(x, y)| (x - middle, *y)).collect();
-    (!rows.is_empty()).then(|| line_at_zero(&rows))
+    (!rows.is_empty()).then(|| line(&rows)[0])
 }
 
-/// The straight line of least squares through points, at zero; their mean where all lie at one place.
-pub(crate) fn line_at_zero(points: &[(f64, f64)]) -> f64 {
+/// The straight line of least squares through points: its value at zero and its slope, none where all lie at one place.
+pub fn line(points: &[(f64, f64)]) -> [f64; 2] {
     let mean = |of: fn(&(f64, f64)) -> f64| mean(points.iter().map(of));
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
     let spread = mean(|p| p.0 * p.0) - x * x;
     let slope = (mean(|p| p.0 * p.1) - x * y) / spread;
-    if spread > 0.0 { y - slope * x } else { y }
+    if spread > 0.0 {
+        [y - slope * x, slope]
+    } else {
+        [y, 0.0]
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use super::cells::WOOD;
 use super::recipe::Plan;
-use super::species::{Grain, Species};
 
 /// Narrower openings (um) are pits and the ends of cells.
 const LEAST: f64 = 3.0;
@@ -21,7 +20,9 @@ pub(crate) fn measure(page: &[u8], plan: &Plan) -> [f64; 6] {
     let [nx, ny, _] = plan.size;
     let um = f64::from(plan.voxel);
     let open: Vec<bool> = page.iter().map(|&label| label != WOOD).collect();
-    let vessel = least_vessel(plan.species);
+    // The diameter (um) from which an opening is a vessel: wider than any fibre or cut ray cell.
+    let vessel = (plan.timber.vessels.as_ref())
+        .map_or(f64::INFINITY, |traits| 0.8 * f64::from(traits.diameter[0]));
     let diameter = |opening: &Opening| opening.diameter() * um;
     let cores = match vessel.is_finite() {
         true => openings(eroded(&open, nx, CLEAR / um), nx),
@@ -68,14 +69,6 @@ pub fn lumen_diameters(page: &[u8], nx: usize, voxel_um: f64) -> Vec<f64> {
         .collect();
     found.sort_by(f64::total_cmp);
     found
-}
-
-/// Diameter (um) from which an opening is a vessel: wider than any fibre or cut ray cell.
-fn least_vessel(species: Species) -> f64 {
-    match (&species.timber().vessels, &species.timber().grain) {
-        (Some(traits), Grain::Fibres(_)) => 0.8 * f64::from(traits.diameter[0]),
-        _ => f64::INFINITY,
-    }
 }
 
 struct Opening {

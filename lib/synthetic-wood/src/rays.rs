@@ -177,15 +177,12 @@ fn strip(below: &Column, above: &Column) -> [f32; 2] {
 /// What a column is, and by how much its rays are wider than one cell, to each side. A species
 /// of one kind takes no random numbers for it.
 fn kind(traits: &'static RayTraits, random: &mut ChaCha8Rng) -> (&'static RayKind, f32) {
-    let [first, others @ ..] = traits.kinds else {
-        unreachable!("a species has rays")
-    };
-    let kind = match others {
-        [] => first,
-        _ => {
+    let kind = match &traits.kinds[..] {
+        [one] => one,
+        kinds => {
             let chance: f32 = random.random();
-            let mut kinds = traits.kinds.iter();
-            kinds.find(|kind| chance < kind.chance).unwrap_or(first)
+            let drawn = kinds.iter().find(|kind| chance < kind.chance);
+            drawn.unwrap_or(&kinds[0])
         }
     };
     let [least, most] = kind.cells;

@@ -1,9 +1,12 @@
 //! Particle files carry checksums, which would stop every change at the door. What is changed
 //! is signed again: lengths, checksums and end marker are made right, and nothing else.
 
+use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
 use xxhash_rust::xxh3::xxh3_64;
 
 const MAGIC: &[u8; 8] = b"\x89MPTS\r\n\x1a";
+const CODEC: Configuration<LittleEndian, Fixint, Limit<{ 1 << 24 }>> =
+    bincode::config::legacy().with_limit();
 const PREAMBLE: usize = 32;
 const END: usize = 16;
 
@@ -24,9 +27,7 @@ pub(crate) fn signed(bytes: &[u8]) -> Vec<u8> {
     else {
         return file;
     };
-    for (at, hash) in sections(&file, end).unwrap_or_default() {
-        file[at..at + 8].copy_from_slice(&hash.to_le_bytes());
-    }
+    let _ = sign_arrays(&mut file, end);
     let hash = {
         let mut hasher = xxhash_rust::xxh3::Xxh3Default::new();
         hasher.update(&file[..24]);
@@ -40,76 +41,41 @@ pub(crate) fn signed(bytes: &[u8]) -> Vec<u8> {
     file
 }
 
-/// Where the checksum of each array stands in the header, and what it should be; `None` where
-/// the header cannot be followed to its end.
-fn sections(file: &[u8], header_end: usize) -> Option<Vec<(usize, u64)>> {
-    let mut at = Header(&file[PREAMBLE..header_end]);
-    // Kind, voxel, normal, box, time, step.
-    at.skip(4 + 8 + 1 + 48 + 8 + 8)?;
-    at.each(|block| {
-        block.text()?;
-        block.skip(4 + 24 + 24 + 8 + 8)
-    })?;
-    at.skip(8)?;
-    at.each(|attribute| {
-        attribute.text()?;
-        attribute.text()
-    })?;
-    at.each(|tool| {
-        tool.text()?;
-        tool.text()?;
-        tool.each(Header::text)?;
-        tool.each(|input| {
-            input.text()?;
-            input.skip(8)
-        })
-    })?;
-    let mut found = Vec::new();
-    at.each(|section| {
-        section.text()?;
-        let size = match section.number(4)? {
+/// A header as FORMAT.md has it: texts are bytes, of whatever encoding.
+type Header = (
+    Fixed,
+    Vec<Block>,
+    u64,
+    Vec<[Text; 2]>,
+    Vec<Tool>,
+    Vec<Section>,
+);
+type Text = Vec<u8>;
+/// Kind, voxel, normal, corners of the box, time, step.
+type Fixed = (u32, f64, u8, [f64; 6], f64, u64);
+/// Name, material, numbers of voxels, low corner, voxel, voxels that are set.
+type Block = (Text, u32, [u64; 3], [f64; 3], f64, u64);
+/// Name, version, command, inputs with their hashes.
+type Tool = (Text, Text, Vec<Text>, Vec<(Text, u64)>);
+/// Name, element, components, rows, offset, checksum.
+type Section = (Text, u32, u32, u64, u64, u64);
+
+/// Makes the checksum of each array right, unless the header cannot be followed to its end.
+fn sign_arrays(file: &mut [u8], header_end: usize) -> Option<()> {
+    let header = &file[PREAMBLE..header_end];
+    let (mut header, _): (Header, _) = bincode::decode_from_slice(header, CODEC).ok()?;
+    for (_, element, components, rows, offset, checksum) in &mut header.5 {
+        let size = match element {
             1 | 3 => 4,
             5 | 6 => 1,
             _ => 8,
         };
-        let components = section.number(4)?;
-        let (rows, offset) = (section.number(8)?, section.number(8)?);
-        let length = rows.checked_mul(components)?.checked_mul(size)?;
-        if let Some(array) = file.get(offset..offset.checked_add(length)?) {
-            found.push((header_end - section.0.len(), xxh3_64(array)));
+        let length = rows.checked_mul((*components).into())?.checked_mul(size)?;
+        let array = usize::try_from(*offset).ok()?..offset.checked_add(length)?.try_into().ok()?;
+        if let Some(array) = file.get(array) {
+            *checksum = xxh3_64(array);
         }
-        section.skip(8)
-    })?;
-    Some(found)
-}
-
-/// What is left of a header of fixed-width little-endian integers.
-struct Header<'a>(&'a [u8]);
-
-impl<'a> Header<'a> {
-    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
-        self.0.split_off(..length)
     }
-
-    fn skip(&mut self, length: usize) -> Option<()> {
-        self.take(length).map(|_| ())
-    }
-
-    /// A whole number of so many bytes.
-    fn number(&mut self, bytes: usize) -> Option<usize> {
-        let bytes = self.take(bytes)?.iter().rev();
-        let number = bytes.fold(0, |number: u64, &byte| number << 8 | u64::from(byte));
-        usize::try_from(number).ok()
-    }
-
-    fn text(&mut self) -> Option<()> {
-        let length = self.number(8)?;
-        self.skip(length)
-    }
-
-    fn each(&mut self, mut item: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
-        let count = self.number(8)?;
-        // Every item is at least a length: a forged count ends at the end of the header.
-        (0..count).try_for_each(|_| item(self))
-    }
+    bincode::encode_into_slice(&header, &mut file[PREAMBLE..header_end], CODEC).ok()?;
+    Some(())
 }

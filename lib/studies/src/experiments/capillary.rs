@@ -2,7 +2,7 @@
 //! their measurements (lib/studies/reference/capillary).
 
 use super::capillary_voxels::{DIP, POOL, Voxels};
-use super::squeeze::{number, rows};
+use super::squeeze::rows;
 use crate::Result;
 use crate::method::Method;
 use crate::numbers::last;
@@ -54,16 +54,13 @@ pub(super) struct Rise {
 
 /// The tubes of the table.
 pub(super) fn tubes() -> Result<Vec<Tube>> {
-    let rows = rows(include_str!("../../reference/capillary/fits.csv"))?;
-    let fits = rows.chunks_exact(3).map(|of| {
-        let mut fits = [[0.0; 2]; 3];
-        for (fit, row) in fits.iter_mut().zip(of) {
-            *fit = [number(&row[2])?, number(&row[3])?];
-        }
-        let radius = number(&of[0][0])?;
-        Ok(Tube { radius, fits })
+    let rows: Vec<(f64, String, [f64; 2])> =
+        rows(include_str!("../../reference/capillary/fits.csv"))?;
+    let tubes = rows.chunks_exact(3).map(|of| Tube {
+        radius: of[0].0,
+        fits: [0, 1, 2].map(|i| of[i].2),
     });
-    fits.collect()
+    Ok(tubes.collect())
 }
 
 /// Runs the tubes that the study wants.

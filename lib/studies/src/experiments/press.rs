@@ -6,6 +6,7 @@ use std::path::Path;
 use voxels::Stack;
 
 use super::section::{Strip, strip};
+use super::wood;
 use crate::Result;
 use crate::method::Method;
 use crate::numbers::{largest, mean};
@@ -52,7 +53,6 @@ pub(super) fn run(study: &Study) -> Result<String> {
         return Ok(String::new());
     }
     let folder = study.folder().join("press");
-    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let strip = strip(SIZE[0], EDGE)?;
     let mut pieces = strip.as_ref().map_or_else(Vec::new, places);
     for seed in 1..=PIECES {
@@ -62,19 +62,17 @@ pub(super) fn run(study: &Study) -> Result<String> {
     Ok(section(&pieces, &done, strip.is_some()))
 }
 
+/// [`SIZE`] as tools take it.
+fn size() -> String {
+    SIZE.map(|n| n.to_string()).join("x")
+}
+
 /// Synthetic spruce by a seed.
 fn grown(folder: &Path, seed: u32) -> Result<Piece> {
-    let stack = folder.join(format!("spruce-{seed}.tif"));
-    let [nx, ny, nz] = SIZE;
-    let (size, voxel) = (format!("{nx}x{ny}x{nz}"), format!("{EDGE} um"));
-    let (grain, seed) = (format!("{GRAIN} deg"), seed.to_string());
-    let mut synth = tool("synth-xct");
-    synth.args(["--quiet", "--adhesive", "none", "--species", "spruce"]);
-    synth.args(["--size", &size, "--voxel", &voxel, "--grain-angle", &grain]);
-    printed(synth.args(["--seed", &seed, "-o"]).arg(&stack))?;
+    let (stack, _) = wood::grown(folder, "spruce", (&size(), EDGE, GRAIN), seed)?;
     let stack = Stack::open(&[stack])?;
     let (mut labels, mut page) = (Vec::new(), Vec::new());
-    for z in 0..nz {
+    for z in 0..SIZE[2] {
         stack.read_page(z, &mut page)?;
         labels.extend_from_slice(&page);
     }
@@ -141,10 +139,9 @@ fn pressed(folder: &Path, piece: &Piece) -> Result<Pressed> {
     let path = |end: &str| folder.join(format!("{name}{end}")).display().to_string();
     let (raw, wood, bond) = (path(".raw"), path("-wood.mpts"), path("-bond.mpts"));
     std::fs::write(&raw, &piece.labels).map_err(|e| format!("{raw}: {e}"))?;
-    let [nx, ny, nz] = SIZE;
-    let (dims, voxel) = (format!("{nx}x{ny}x{nz}"), format!("{EDGE} um"));
+    let voxel = format!("{EDGE} um");
     let mut reader = tool("xct2particles");
-    reader.args(["--quiet", &raw, "--dims", &dims, "--type", "u8"]);
+    reader.args(["--quiet", &raw, "--dims", &size(), "--type", "u8"]);
     reader.args(["--voxel", &voxel, "--labels", "void=0,wood=128"]);
     printed(reader.args(["-o", &wood]))?;
     let (plane, slab) = (format!("{} um", BELOW as f64 * EDGE), format!("{SLAB} um"));
@@ -204,9 +201,8 @@ fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
     if real {
         means += include_str!("press-real.txt");
     }
-    let [nx, ny, nz] = SIZE;
     let values = [
-        ("size", &*format!("{nx}x{ny}x{nz}")),
+        ("size", &*size()),
         ("grain", &GRAIN.to_string()),
         ("slab", &SLAB.to_string()),
         ("travel", &TRAVEL.to_string()),

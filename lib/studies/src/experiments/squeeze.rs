@@ -3,6 +3,8 @@
 
 use std::f64::consts::PI;
 
+use serde::de::DeserializeOwned;
+
 use crate::Result;
 use crate::case_text::{Body, CaseText, Viscosity};
 use crate::numbers::crossing;
@@ -62,36 +64,26 @@ const FREE: f64 = 2.0;
 
 /// The table of experiments.
 pub(super) fn experiments() -> Result<Vec<Experiment>> {
-    let cases = rows(include_str!("../../reference/squeeze/cases.csv"))?;
-    let radii = rows(include_str!("../../reference/squeeze/radii.csv"))?;
-    let experiment = |row: &csv::StringRecord| {
-        let pair = |i: usize| Ok::<_, crate::Error>([number(&row[i])?, number(&row[i + 1])?]);
-        let own = radii.iter().filter(|radius| radius[0] == row[0]);
-        let measured = own.map(|r| Ok([number(&r[1])?, number(&r[2])?, number(&r[3])?]));
-        Ok(Experiment {
-            name: row[0].to_owned(),
-            liquid: if row[1] == *GLYCEROL.name {
-                &GLYCEROL
-            } else {
-                &PVP
-            },
-            force: pair(2)?,
-            volume: pair(4)?,
-            radius: pair(6)?,
-            measured: measured.collect::<Result<_>>()?,
-        })
+    type Case = (String, String, [f64; 2], [f64; 2], [f64; 2], u32);
+    let cases: Vec<Case> = rows(include_str!("../../reference/squeeze/cases.csv"))?;
+    let radii: Vec<(String, [f64; 3])> = rows(include_str!("../../reference/squeeze/radii.csv"))?;
+    let experiment = |(name, liquid, force, volume, radius, _): Case| Experiment {
+        liquid: [&GLYCEROL, &PVP][usize::from(liquid != GLYCEROL.name)],
+        measured: (radii.iter().filter(|(of, _)| *of == name))
+            .map(|(_, measured)| *measured)
+            .collect(),
+        name,
+        force,
+        volume,
+        radius,
     };
-    cases.iter().map(experiment).collect()
+    Ok(cases.into_iter().map(experiment).collect())
 }
 
 /// The rows of a table of the references.
-pub(super) fn rows(text: &str) -> Result<Vec<csv::StringRecord>> {
+pub(super) fn rows<T: DeserializeOwned>(text: &str) -> Result<Vec<T>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    Ok(reader.records().collect::<Result<_, _>>()?)
-}
-
-pub(super) fn number(text: &str) -> Result<f64> {
-    Ok(text.parse().map_err(|e| format!("'{text}': {e}"))?)
+    Ok(reader.deserialize().collect::<Result<_, _>>()?)
 }
 
 impl Experiment {

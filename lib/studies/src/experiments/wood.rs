@@ -49,16 +49,22 @@ pub(super) fn run(study: &Study) -> Result<String> {
     Ok(page)
 }
 
-/// Grows a piece of undamaged wood; gives its stack and what `synth-xct` says of it.
-fn grown(study: &Study, species: &str, which: usize, seed: u32) -> Result<(PathBuf, String)> {
-    let path = study.folder().join(format!("{species}-{seed}.tif"));
+/// Grows a piece of undamaged wood in a folder: so many voxels of an edge (um), fibres at an angle (degrees). Gives its stack
+/// and what `synth-xct` says of it.
+pub(super) fn grown(
+    folder: &Path,
+    species: &str,
+    (size, edge, grain): (&str, f64, f64),
+    seed: u32,
+) -> Result<(PathBuf, String)> {
+    let path = folder.join(format!("{species}-{seed}.tif"));
+    let (voxel, grain) = (format!("{edge} um"), format!("{grain} deg"));
     let mut command = tool("synth-xct");
-    command.args(["--adhesive", "none", "--species", species]);
-    let voxel = format!("{} um", EDGE[which]);
-    command.args(["--size", SIZE[which], "--voxel", &voxel]);
-    command.args(["--grain-angle", "0 deg", "--seed", &seed.to_string(), "-o"]);
-    std::fs::create_dir_all(study.folder())?;
-    let output = done(command.arg(&path))?;
+    command.args(["--adhesive", "none", "--species", species, "--size", size]);
+    command.args(["--voxel", &voxel, "--grain-angle", &grain]);
+    command.args(["--seed", &seed.to_string(), "-o"]).arg(&path);
+    std::fs::create_dir_all(folder)?;
+    let output = done(&mut command)?;
     Ok((path, said(&output)))
 }
 
@@ -68,7 +74,7 @@ fn permeability(study: &Study, piece: &Piece) -> Result<String> {
     // Vessels per mm2 and their median diameter, um.
     let (name, vessels) = match piece {
         Piece::Wood(species, seed) => {
-            let (path, anatomy) = grown(study, species, 0, *seed)?;
+            let (path, anatomy) = grown(&study.folder(), species, (SIZE[0], EDGE[0], 0.0), *seed)?;
             command.arg(path);
             command.args(["--labels", "void=0,wood=128", "--permeability", "z"]);
             let number = |name: &str| {
@@ -132,7 +138,7 @@ fn lumens(study: &Study) -> Result<String> {
     };
     let mut rows = vec![row("measured", 11_685, MEASURED)];
     for seed in SEEDS {
-        let (path, _) = grown(study, "spruce", 1, seed)?;
+        let (path, _) = grown(&study.folder(), "spruce", (SIZE[1], EDGE[1], 0.0), seed)?;
         let stack = Stack::open(&[path])?;
         let mut page = Vec::new();
         stack.read_page(12, &mut page)?;

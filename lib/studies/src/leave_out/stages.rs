@@ -5,47 +5,28 @@ use std::path::Path;
 use super::callgrind;
 use crate::Result;
 use crate::case_text::CaseText;
+use crate::lines;
 use crate::method::{Method, Scheme};
 use crate::outputs::Run;
 use crate::study::{side_by_side, table, write};
 
 /// A stage and its functions, as module and function, or type and method.
-type Stage = (&'static str, &'static [&'static str]);
+type Stage = (&'static str, Vec<&'static str>);
 
-/// Stages in the order of a step.
-fn stages(scheme: Scheme) -> &'static [Stage] {
-    match scheme {
-        Scheme::Explicit => &[
-            ("bodies at nodes", &["Grid::see_bodies"]),
-            ("nodes", &["Block::advance"]),
-            (
-                "velocity filter",
-                &["halo::gather_filtered", "Block::refine"],
-            ),
-            ("stress", &["AnyFlow::update"]),
-            ("cell-mean pressure", &["cell_mean::share_rate"]),
-            ("points move", &["collide::move_points"]),
-            ("density projection", &["density::project"]),
-        ],
-        Scheme::Implicit => &[
-            ("mesh of the gap", &["Implicit::fit_mesh"]),
-            ("viscosity of the shear rate", &["Viscosities::of"]),
-            (
-                "assembly",
-                &[
-                    "halves::stiffnesses",
-                    "Problem::velocity_block",
-                    "Problem::outflow",
-                ],
-            ),
-            ("linear solve", &["SaddleSolver::solve"]),
-            (
-                "solve at the pressure limit",
-                &["SaddleSolver::solve_loaded"],
-            ),
-            ("transport", &["transport::transport"]),
-        ],
-    }
+/// Stages in the order of a step: stages.txt.
+fn stages(scheme: Scheme) -> Vec<Stage> {
+    lines::read(include_str!("stages.txt"), |line| {
+        let [own, stage, functions] = line.split(" | ").collect::<Vec<_>>()[..] else {
+            return None;
+        };
+        let stage = (stage, functions.split(' ').collect());
+        Some(
+            (own == scheme.name())
+                .then_some(stage)
+                .into_iter()
+                .collect(),
+        )
+    })
 }
 
 /// A scene, by one scheme.
@@ -88,8 +69,8 @@ impl Table {
     /// Whether no scene has instructions in a stage that it does without.
     pub(super) fn absent_are_zero(&self) -> bool {
         self.scenes.iter().zip(&self.counts).all(|(scene, counts)| {
-            (stages(self.scheme).iter().zip(counts))
-                .all(|((stage, _), count)| !scene.without.contains(stage) || *count == 0.0)
+            (stages(self.scheme).into_iter().zip(counts))
+                .all(|((stage, _), count)| !scene.without.contains(&stage) || *count == 0.0)
         })
     }
 
@@ -117,7 +98,7 @@ impl Table {
     }
 
     fn names(&self) -> impl Iterator<Item = &'static str> {
-        let stages = stages(self.scheme).iter().map(|(name, _)| *name);
+        let stages = stages(self.scheme).into_iter().map(|(name, _)| name);
         stages.chain(["whole run"])
     }
 }
@@ -138,14 +119,14 @@ fn count(scheme: Scheme, scene: &Scene, folder: &Path) -> Result<Vec<f64>> {
     let (total, functions) = callgrind::profile(&scene.method.command(&case, &run))?;
     let steps = Run { folder: run }.summary("steps");
     let steps = steps.ok_or("the run's summary has no steps")?;
-    let of_stage = |(_, names): &Stage| {
+    let of_stage = |(_, names): Stage| {
         let is = |function: &str, name: &str| function.ends_with(&format!("::{name}"));
         let own = functions
             .iter()
             .filter(|(f, _)| names.iter().any(|name| is(f, name)));
         own.map(|(_, cost)| cost).sum()
     };
-    let counts = stages(scheme).iter().map(of_stage).chain([total]);
+    let counts = stages(scheme).into_iter().map(of_stage).chain([total]);
     Ok(counts.map(|count: f64| count / steps / 1e6).collect())
 }
 

@@ -6,7 +6,7 @@ use crate::job::{Job, Outcome, run_all};
 use crate::method::{Method, Scheme};
 use crate::numbers::worst;
 use crate::study::{self, Study};
-use crate::verification::{Scene, acoustic, channel, slit, squeeze};
+use crate::verification::{self, Measured, Scene};
 
 /// The options by name, with the keys they set.
 pub(crate) const OPTIONS: [(&str, &[&str]); 5] = [
@@ -23,10 +23,13 @@ pub(crate) const OPTIONS: [(&str, &[&str]); 5] = [
     ),
 ];
 
-/// Offsets of the walls against the nodes, cells.
-const OFFSETS: [f64; 3] = [0.0, 0.25, 0.5];
-/// Cells across slit and channel.
-const CELLS: u32 = 6;
+/// What is measured: where the paper's scheme is wrong, and flows that an option must not spoil.
+const SCENES: [&str; 4] = [
+    "slit n=6 off=0,0.25,0.5 up=0",
+    "channel n=6 off=0,0.25,0.5",
+    "squeeze n=6 off=0,0.25,0.5",
+    "acoustic eta=0.001",
+];
 
 /// Methods: the paper's two, APIC, each with every option; the implicit scheme beside them.
 fn methods() -> Vec<Method> {
@@ -39,19 +42,10 @@ fn methods() -> Vec<Method> {
     list
 }
 
-/// What is measured: where the paper's scheme is wrong, and flows that an option must not spoil.
-fn scenes() -> Vec<Scene> {
-    let mut list = Vec::new();
-    list.extend(OFFSETS.map(|offset| slit::scene(CELLS, [offset, 0.0])));
-    list.extend(OFFSETS.map(|offset| channel::scene(CELLS, offset, None, 3e-6)));
-    list.extend(OFFSETS.map(|offset| squeeze::scene(CELLS, offset)));
-    list.push(acoustic::scene(0.001));
-    list
-}
-
 /// The study, on the scenes so named.
 pub fn run(study: &Study) -> Result<bool> {
-    let mut scenes = scenes();
+    let of = |words| verification::scenes(words).expect("part of the program");
+    let mut scenes: Vec<Scene> = SCENES.into_iter().flat_map(of).collect();
     scenes.retain(|s| study.wants(&s.name));
     let mut jobs: Vec<Job> = Vec::new();
     for scene in &scenes {
@@ -75,20 +69,13 @@ pub fn run(study: &Study) -> Result<bool> {
 /// The errors of a run, or why there are none.
 fn fields(o: &Outcome) -> Vec<Vec<String>> {
     let row = |of: [&str; 5]| {
-        let head = [&o.scene, o.method.label.as_str()];
-        [&head[..], &of]
-            .concat()
-            .into_iter()
-            .map(String::from)
-            .collect()
+        let head = [&o.scene, o.method.label.as_str()].into_iter();
+        head.chain(of).map(String::from).collect()
     };
+    let (steps, cpu) = (o.steps.to_string(), format!("{:.1}", o.cpu_s));
+    let error = |m: &Measured| row([&m.what, &format!("{:.4e}", m.error), &steps, &cpu, ""]);
     match &o.measured {
-        Ok(list) => (list.iter())
-            .map(|m| {
-                let (error, cpu) = (format!("{:.4e}", m.error), format!("{:.1}", o.cpu_s));
-                row([&m.what, &error, &o.steps.to_string(), &cpu, ""])
-            })
-            .collect(),
+        Ok(list) => list.iter().map(error).collect(),
         Err(said) => vec![row(["", "", "", "", said])],
     }
 }

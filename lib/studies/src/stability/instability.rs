@@ -12,7 +12,7 @@ use super::scenes::{self, Scene, torn};
 use crate::Result;
 use crate::lines::Values;
 use crate::method::Method;
-use crate::outputs::{Run, tool};
+use crate::outputs::Run;
 use crate::study::{said, table, terminate, write};
 
 /// Attempts to stop a run in time, on a machine busy with other work.
@@ -154,16 +154,10 @@ impl Trial {
     }
 
     fn command(&self, folder: &Path, cfl: f64) -> Command {
-        let mut command = tool("mpm-run");
-        command
-            .args(["case.toml", "-o", "run", "--quiet", "--threads", "1"])
-            .args(["--set", &format!("integrator.cfl={cfl}")])
-            .args(["--set", "output.snapshots=100"])
-            .current_dir(folder)
-            .stderr(Stdio::piped());
-        for change in &self.method.set {
-            command.args(["--set", change]);
-        }
+        let method = (self.method.clone().setting(format!("integrator.cfl={cfl}")))
+            .setting("output.snapshots=100");
+        let mut command = method.command("case.toml".as_ref(), "run".as_ref());
+        command.current_dir(folder).stderr(Stdio::piped());
         command
     }
 }

@@ -12,10 +12,6 @@ const CFL: f64 = 0.5;
 
 /// Methods that every value is tried with.
 const USUAL: [&str; 4] = ["FLIP", "XPIC(5)", "APIC", "implicit"];
-/// Every update of the explicit scheme.
-const UPDATES: [&str; 9] = [
-    "FLIP", "PIC", "APIC", "XPIC(2)", "XPIC(3)", "XPIC(5)", "FMPM(2)", "FMPM(3)", "FMPM(5)",
-];
 
 /// All trials.
 pub(super) fn trials() -> Vec<Trial> {
@@ -65,7 +61,7 @@ fn named(word: &str) -> Vec<(&'static str, Method)> {
     };
     match word {
         "usual" => plain(&USUAL),
-        "updates" => plain(&UPDATES),
+        "updates" => plain(&Method::UPDATES),
         "cell-mean" => {
             let mean = Method::named("APIC").setting("integrator.pressure=cell-mean");
             [plain(&USUAL), vec![("", mean.called("APIC, cell mean"))]].concat()

@@ -38,7 +38,11 @@ pub fn methods(word: &str) -> Vec<Method> {
         .map_or((label, None), |(label, cfl)| (label, Some(cfl)));
     let plain = match label {
         "paper" => ["FLIP", "XPIC(5)"].map(Method::named).into(),
-        "updates" => Method::updates(),
+        // An order between two tells nothing more.
+        "updates" => (Method::UPDATES.into_iter())
+            .filter(|label| !label.contains('3'))
+            .map(Method::named)
+            .collect(),
         label => vec![Method::named(label)],
     };
     let cfl = cfl.map(|cfl| format!("integrator.cfl={cfl}"));

@@ -3,7 +3,7 @@
 
 use super::{LUMEN, Measured, Scene, mean_against, pressing};
 use crate::case_text::{Body, CaseText, PF, STICK, partial_slip};
-use crate::numbers::{line_at_zero, worst};
+use crate::numbers::{line, worst};
 
 /// Body force per mass, m/s2: a mean velocity near 0.02 m/s.
 const G: f64 = 2.3e5;
@@ -87,7 +87,7 @@ pub fn couette_scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
         // Three cells may have one row of points there.
         let apart = |(y, _): &(f64, f64)| (y - points[0].0).abs() > 0.01 * LUMEN;
         if points.iter().any(apart) {
-            let found = line_at_zero(&points);
+            let [found, _] = line(&points);
             list.push(Measured::relative("slip velocity", found, exact));
         }
         list.push(Measured::relative(

@@ -19,19 +19,6 @@ pub(super) struct Goal {
 }
 
 impl Goal {
-    /// Of a line: cases, beginnings of scenes, method, quantity, limit and, where it is out of reach, why.
-    fn parse(line: &'static str) -> Option<Self> {
-        let mut parts = line.split(" | ");
-        Some(Self {
-            cases: parts.next()?,
-            prefixes: parts.next()?.split(' ').collect(),
-            method: parts.next()?,
-            quantity: parts.next()?,
-            limit: parts.next()?.parse().ok()?,
-            why: parts.next(),
-        })
-    }
-
     /// Whether a run of `scene` by the method of this label counts.
     pub(super) fn is_about(&self, scene: &str, label: &str) -> bool {
         let method = match self.method {
@@ -48,9 +35,18 @@ impl Goal {
     }
 }
 
-/// The numbers the project set out to reach.
+/// The numbers the project set out to reach; a line has cases, beginnings of scenes, method, quantity, limit and, where it is
+/// out of reach, why.
 pub(super) fn goals() -> Vec<Goal> {
     lines::read(include_str!("goals.txt"), |line| {
-        Some(vec![Goal::parse(line)?])
+        let mut parts = line.split(" | ");
+        Some(vec![Goal {
+            cases: parts.next()?,
+            prefixes: parts.next()?.split(' ').collect(),
+            method: parts.next()?,
+            quantity: parts.next()?,
+            limit: parts.next()?.parse().ok()?,
+            why: parts.next(),
+        }])
     })
 }

@@ -6,13 +6,9 @@ use super::goals::{self, Goal};
 use super::{Measured, Scene};
 use crate::Result;
 use crate::job::Outcome;
+use crate::method::Method;
 use crate::numbers::worst;
 use crate::study::{Study, distinct, filled, table};
-
-/// Order of the methods in tables.
-const COLUMNS: [&str; 9] = [
-    "FLIP", "PIC", "APIC", "XPIC(2)", "XPIC(3)", "XPIC(5)", "FMPM(2)", "FMPM(5)", "implicit",
-];
 
 /// Families of scenes in the order of the page, each with its heading and text.
 const FAMILIES: &str = include_str!("families.txt");
@@ -128,7 +124,8 @@ fn worst_of(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
 /// The worst error of each quantity at each resolution by each method, and what failed.
 fn family_table(out: &mut String, outcomes: &[&Outcome], all_outcomes: &[Outcome]) {
     let mut methods = distinct(outcomes.iter().map(|o| o.method.label.as_str()));
-    methods.sort_by_key(|label| COLUMNS.iter().position(|c| c == label));
+    let place = |label: &&str| Method::UPDATES.iter().position(|update| update == label);
+    methods.sort_by_key(|label| (*label == "implicit", place(label)));
     let all = outcomes.iter().flat_map(|o| {
         let (_, cells) = Scene::resolution(&o.scene);
         let whats = o.measured.iter().flatten().map(|m| m.what.as_str());
