@@ -5,13 +5,13 @@ use rayon::prelude::*;
 use super::FlowField;
 use crate::geometry::{Lattice, others};
 
-/// A flow, to find velocities within pores. Along its own axis a velocity is linear from face to face. Across it, in cells of two
-/// voxels, it has the slope at the middle of a parabola whose slopes at the two sides of the face are the rates of shear there.
+/// A flow, to find velocities within pores. Along its own axis a velocity is linear from face to face. Across it is a parabola
+/// whose mean over the face is the velocity of the face and whose slopes at the two sides are the rates of shear there.
 pub(crate) struct Profile<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) flow: FlowField<'a>,
-    /// Slopes of the velocity of each face along the two axes across it, the lower first, 1/s; none of cells of one voxel.
-    slopes: Vec<[f64; 2]>,
+    /// Slopes of the velocity of each face at its low and its high side along the two axes across it, the lower first, 1/s.
+    slopes: Vec<[[f64; 2]; 2]>,
 }
 
 /// Velocities of the columns of voxels at a side of a pore, by their place across: the first axis runs fastest.
@@ -19,14 +19,10 @@ type Columns = [Option<f64>; 4];
 
 impl<'a> Profile<'a> {
     pub(crate) fn new(lattice: &'a Lattice, flow: FlowField<'a>) -> Self {
-        let faces = match flow.mesh.k {
-            1 => 0,
-            _ => flow.mesh.faces.len(),
-        };
-        let slopes = (0..faces).into_par_iter();
+        let faces = (0..flow.mesh.faces.len()).into_par_iter();
         Self {
             lattice,
-            slopes: slopes.map(|face| flow.slopes(face)).collect(),
+            slopes: faces.map(|face| flow.slopes(face)).collect(),
             flow,
         }
     }
@@ -58,23 +54,35 @@ impl<'a> Profile<'a> {
     }
 
     /// Velocities against the grid of the columns of voxels at one side of a pore: 0 at walls, none where the liquid ends.
+    /// Parabola u + a y + c (y^2 - h^2/12) over the height h that a face is open by, with the slopes a - c h and a + c h at its sides.
     fn columns(&self, pore: usize, axis: usize, up: bool) -> Columns {
         let (mesh, across) = (self.flow.mesh, others(axis));
         let k = mesh.k;
         let mut side: Columns = [Some(0.0); 4];
         for face in mesh.faces_at(pore, axis, up) {
             let open = mesh.faces[face].open;
-            let slopes = self.slopes.get(face).copied().unwrap_or_default();
-            let at = |place: usize| [place % k, place / k].map(|i| i as f64 / k as f64);
             let places = (0..k * k).filter(|place| open >> place & 1 == 1);
-            let middle = places.clone().map(at).fold([0.0; 2], |sum, at| {
-                let count = f64::from(open.count_ones());
-                [sum[0] + at[0] / count, sum[1] + at[1] / count]
+            let at = |place: usize| [place % k, place / k];
+            let ends = [0, 1].map(|i| {
+                let along = places.clone().map(|place| at(place)[i]);
+                along.fold([k, 0], |[first, last], at| {
+                    [first.min(at), last.max(at + 1)]
+                })
             });
             for place in places {
-                let off = |i: usize| mesh.edge(pore, across[i]) * (at(place)[i] - middle[i]);
-                let departure = slopes[0] * off(0) + slopes[1] * off(1);
-                side[place] = (self.flow.moves(face)).then(|| self.flow.velocity[face] + departure);
+                let departure = |i: usize| {
+                    let edge = mesh.edge(pore, across[i]) / k as f64;
+                    let [[first, last], [low, high]] =
+                        [ends[i].map(|end| end as f64), self.slopes[face][i]];
+                    let (height, y) = (
+                        edge * (last - first),
+                        edge * (at(place)[i] as f64 + 0.5 - 0.5 * (first + last)),
+                    );
+                    let curvature = 0.5 * (high - low) / height;
+                    0.5 * (low + high) * y + curvature * (y * y - height * height / 12.0)
+                };
+                side[place] = (self.flow.moves(face))
+                    .then(|| self.flow.velocity[face] + departure(0) + departure(1));
             }
         }
         side
@@ -140,11 +148,11 @@ impl FlowField<'_> {
         self.velocity[face] != 0.0
     }
 
-    /// Slopes of the velocity of a face along the two axes across it: means of the rates of shear at its two sides. Where it
-    /// borders on no other face these are the rates at its walls, and none where the liquid ends.
-    fn slopes(&self, face: usize) -> [f64; 2] {
+    /// Slopes of the velocity of a face at its low and its high side along the two axes across it: where it borders on other
+    /// faces by their velocities, at walls the rate of shear there, and none where the liquid ends.
+    fn slopes(&self, face: usize) -> [[f64; 2]; 2] {
         if !self.moves(face) {
-            return [0.0; 2];
+            return [[0.0; 2]; 2];
         }
         let (mesh, f) = (self.mesh, self.mesh.faces[face]);
         let at_walls = self.pull_of_walls(face);
@@ -166,13 +174,14 @@ impl FlowField<'_> {
                     }
                 }
                 let inside = mesh.neighbour(mesh.cell(f.low as usize), across[i], up);
-                match (inside, up) {
+                let rate = match (inside, up) {
                     (None, _) => rate,
                     (_, true) => rate + walls * at_walls,
                     (_, false) => rate - walls * at_walls,
-                }
+                };
+                rate / columns[i]
             };
-            0.5 * (side(false) + side(true)) / columns[i]
+            [side(false), side(true)]
         })
     }
 
