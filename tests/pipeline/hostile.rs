@@ -15,7 +15,7 @@ fn a_failing_standard_error_ends_nothing() {
         bench.ends(2, &format!("{tool} --no-such-option 2>/dev/full"), "");
     }
     let run = "mpm-run case.toml --particles bond.mpts -o run";
-    bench.done(&format!("{run} 2>/dev/full"));
+    bench.done(&format!("{run} -v 2>/dev/full"));
     assert!(bench.path("run/final.mpts").exists());
     bench.ends(2, &format!("{run} 2>/dev/full"), "");
     // Help that is not printed.

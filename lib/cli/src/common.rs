@@ -15,8 +15,11 @@ use crate::{message, signals};
 #[command(next_help_heading = "Common options")]
 pub struct Common {
     /// Print errors and warnings only
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
+    /// Print details
+    #[arg(short, long, global = true)]
+    verbose: bool,
     /// Worker threads [default: RAYON_NUM_THREADS, then SLURM_CPUS_PER_TASK, then all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
@@ -119,7 +122,11 @@ fn usage(error: &clap::Error, tool: &str) -> ExitCode {
 const THREADS_PER_CORE: usize = 4;
 
 fn setup(common: &Common) -> Result<(), Failure> {
-    message::set_quiet(common.quiet);
+    message::set_level(match (common.quiet, common.verbose) {
+        (true, _) => -1,
+        (_, true) => 1,
+        _ => 0,
+    });
     let from_environment = |name| {
         let number = std::env::var(name).ok()?.parse::<usize>();
         number.ok().filter(|&n| n > 0)

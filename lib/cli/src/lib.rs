@@ -33,7 +33,7 @@ mod staged;
 pub use apart::{keep_apart, keep_apart_with_records};
 pub use common::{Common, main};
 pub use exit::{Failure, Status};
-pub use message::{cell, harmless, note, print, warn};
+pub use message::{cell, detail, harmless, note, print, warn};
 pub use output::Output;
 pub use progress::{Progress, duration};
 pub use provenance::{InputRecord, Record, hash_reader};

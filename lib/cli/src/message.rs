@@ -4,22 +4,22 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicI8, Ordering};
 
 use crate::{Failure, Output};
 
-/// A statement about the process, set once.
-static QUIET: AtomicBool = AtomicBool::new(false);
+/// -1 quiet, 0 normal, 1 and more verbose. A statement about the process, set once.
+static LEVEL: AtomicI8 = AtomicI8::new(0);
 
-pub(crate) fn set_quiet(quiet: bool) {
-    QUIET.store(quiet, Ordering::Relaxed);
+pub(crate) fn set_level(level: i8) {
+    LEVEL.store(level, Ordering::Relaxed);
 }
 
 pub(crate) fn quiet() -> bool {
-    QUIET.load(Ordering::Relaxed)
+    LEVEL.load(Ordering::Relaxed) < 0
 }
 
-/// A line on standard error, also with `--quiet`.
+/// A line on standard error whatever the level.
 pub(crate) fn say(message: impl Display) {
     let line = format!("{}\n", harmless(&message.to_string()));
     let _ = io::stderr().lock().write_all(line.as_bytes());
@@ -28,6 +28,13 @@ pub(crate) fn say(message: impl Display) {
 /// A line on standard error unless `--quiet`.
 pub fn note(message: impl Display) {
     if !quiet() {
+        say(message);
+    }
+}
+
+/// A line on standard error with `--verbose`.
+pub fn detail(message: impl Display) {
+    if LEVEL.load(Ordering::Relaxed) > 0 {
         say(message);
     }
 }

@@ -159,6 +159,7 @@ fn make_specimens(table: &Table, drafts: &[Draft], folder: &Path) -> Result<usiz
     let mut made = BTreeSet::new();
     for (row, draft) in drafts.iter().enumerate() {
         if let Some(recipe) = draft.recipe.as_ref().filter(|recipe| made.insert(*recipe)) {
+            cli::detail(format_args!("specimen of row {}", row + 1));
             let made = recipe.make(folder);
             made.map_err(|why| table.wrong_row(row, format_args!("its specimen: {why}")))?;
         }
