@@ -4,11 +4,11 @@ use physics::{Boundary, VoxelBlock};
 use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 
 use crate::geometry::{Chords, Lattice, Mesh};
-use crate::liquid::Kept;
+use crate::liquid::FaceMap;
 use crate::settings::MISSED;
 use crate::system::{
-    Channels, Edges, Fronts, Links, Problem, Scales, Unknowns, Viscosities, masses, resistance,
-    stiffnesses,
+    Channels, Edges, Fronts, Problem, Scales, Unknowns, Viscosities, WallCouplings, masses,
+    resistance, stiffnesses,
 };
 
 /// Relative residual of the solve, a tenth of what a step may miss: the flux is within a tenth of it.
@@ -128,7 +128,8 @@ impl Through {
             mesh,
             influence_length: 0.0,
         };
-        let links = Links::new(&channels, &Kept::default(), &Links::default());
+        let couplings =
+            WallCouplings::new(&channels, &FaceMap::default(), &WallCouplings::default());
         let unknowns = Unknowns::new(mesh, fractions, &vec![false; mesh.pores.len()]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
             .map(|face| face.ends().map(|pore| fractions[pore]))
@@ -137,8 +138,8 @@ impl Through {
         let problem = Problem {
             lattice,
             mesh,
-            links: &links,
-            edges: &Edges::new(mesh, lattice, &Kept::default(), &Edges::default()),
+            couplings: &couplings,
+            edges: &Edges::new(mesh, lattice, &FaceMap::default(), &Edges::default()),
             unknowns: &unknowns,
             fractions,
             halves: &halves,
@@ -205,7 +206,7 @@ fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
             .collect();
         let mut next: Vec<usize> = (0..seen.len()).filter(|&pore| seen[pore]).collect();
         while let Some(pore) = next.pop() {
-            for other in mesh.ways(pore).map(|way| way.beside) {
+            for other in mesh.neighbours(pore).map(|neighbour| neighbour.pore) {
                 let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);
                 if !seen[other] && !mirrored {
                     seen[other] = true;

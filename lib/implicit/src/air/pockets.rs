@@ -60,7 +60,10 @@ impl Air {
             let pores = mesh.connected(first, &|pore| !full(pore), &mut found);
             let each = || pores.iter().map(|&pore| pore as usize);
             let open = each().any(reaches_out);
-            let wet = each().any(|pore| mesh.ways(pore).any(|way| has_pressure(way.beside)));
+            let wet = each().any(|pore| {
+                mesh.neighbours(pore)
+                    .any(|neighbour| has_pressure(neighbour.pore))
+            });
             air.add(pores, open, wet, void);
         }
         air
@@ -92,8 +95,8 @@ impl Air {
                 continue;
             }
             let open: Vec<usize> = mesh
-                .ways(pore)
-                .map(|way| way.beside)
+                .neighbours(pore)
+                .map(|neighbour| neighbour.pore)
                 .filter(|&beside| !full(beside))
                 .collect();
             let all: f64 = open.iter().map(|&beside| void[beside]).sum();

@@ -40,16 +40,16 @@ impl Face {
 
 /// A face seen from a pore beside it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct Neighbour {
     pub(crate) face: usize,
     pub(crate) axis: usize,
     /// Whether it is on the pore's high side.
     pub(crate) up: bool,
     /// The pore behind it.
-    pub(crate) beside: usize,
+    pub(crate) pore: usize,
 }
 
-impl Way {
+impl Neighbour {
     /// Sign of a velocity that leaves the pore.
     pub(crate) fn sign(self) -> f64 {
         if self.up { 1.0 } else { -1.0 }
@@ -151,7 +151,7 @@ impl Mesh {
                 if lattice.flat && axis == 2 {
                     continue;
                 }
-                if let Some(next) = mesh.neighbour(cell, axis, true) {
+                if let Some(next) = mesh.next_cell(cell, axis, true) {
                     mesh.join(cell, next, axis);
                 }
             }
@@ -174,7 +174,7 @@ impl Mesh {
                     self.side_start.push(self.sides.len() as u32);
                     let range = match up {
                         true => self.faces_of(cell, axis),
-                        false => (self.neighbour(cell, axis, false))
+                        false => (self.next_cell(cell, axis, false))
                             .map_or(0..0, |low| self.faces_of(low, axis)),
                     };
                     for face in range {
@@ -250,7 +250,7 @@ impl Mesh {
     }
 
     /// The next cell along an axis, over periodic sides too; `None` at other sides.
-    pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
+    pub(crate) fn next_cell(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let [nx, ny, _] = self.size;
         let (n, stride) = (self.size[axis], [1, nx, nx * ny][axis]);
         let at_side = self.at_sides[cell] >> (2 * axis + usize::from(up)) & 1 == 1;
@@ -294,14 +294,14 @@ impl Mesh {
     }
 
     /// The faces of a pore, along x, y, z, on its low side first.
-    pub(crate) fn ways(&self, pore: usize) -> impl Iterator<Item = Way> {
+    pub(crate) fn neighbours(&self, pore: usize) -> impl Iterator<Item = Neighbour> {
         (0..6).flat_map(move |side| {
             let (axis, up) = (side / 2, side % 2 == 1);
-            self.faces_at(pore, axis, up).map(move |face| Way {
+            self.faces_at(pore, axis, up).map(move |face| Neighbour {
                 face,
                 axis,
                 up,
-                beside: self.faces[face].ends()[usize::from(up)],
+                pore: self.faces[face].ends()[usize::from(up)],
             })
         })
     }
@@ -317,7 +317,7 @@ impl Mesh {
         found[first] = true;
         while let Some(&pore) = pores.get(next) {
             next += 1;
-            for Way { beside, .. } in self.ways(pore as usize) {
+            for Neighbour { pore: beside, .. } in self.neighbours(pore as usize) {
                 if within(beside) && !std::mem::replace(&mut found[beside], true) {
                     pores.push(beside as u32);
                 }

@@ -113,7 +113,7 @@ impl Mesh {
             return Some((cell, voxel));
         }
         voxel[axis] = if up { 0 } else { last };
-        self.neighbour(cell, axis, up).map(|cell| (cell, voxel))
+        self.next_cell(cell, axis, up).map(|cell| (cell, voxel))
     }
 
     /// Logarithm of the factor of friction and exchange between an open voxel and the one next to it along the first of two
@@ -132,17 +132,17 @@ impl Mesh {
                 continue;
             };
             // The solid voxel, and which way the edge lies from it.
-            let (solid, ways) = match [next, beside, opposite].map(wall) {
+            let (solid, towards) = match [next, beside, opposite].map(wall) {
                 [Some(true), Some(false), Some(false)] => (next, [!up, side]),
                 [Some(false), Some(true), Some(false)] => (beside, [up, !side]),
                 [Some(false), Some(false), Some(true)] => (opposite, [!up, !side]),
                 _ => continue,
             };
-            let [along, aside] = ways;
+            let [along, aside] = towards;
             // Whether the walls on both sides of the edge are a cell long, for cells of two voxels.
-            let long = |axis: usize, way: bool, normal: usize, out: bool| {
+            let long = |axis: usize, up: bool, normal: usize, out: bool| {
                 let open = |at: At| step(at, normal, out).and_then(wall) == Some(false);
-                step(solid, axis, !way).is_some_and(|on| wall(on) == Some(true) && open(on))
+                step(solid, axis, !up).is_some_and(|on| wall(on) == Some(true) && open(on))
             };
             let whole = long(t, along, across, aside) && long(across, aside, t, along);
             let within = |axis: usize, up: bool| {

@@ -2,16 +2,16 @@
 
 use rayon::prelude::*;
 
+use super::advect_water::advect_water;
 use super::overflow::overflow;
-use super::water::carry;
-use crate::geometry::{Mesh, Way};
+use crate::geometry::{Mesh, Neighbour};
 
 /// Least component of the surface's normal along a face's axis, over that aside, for which the face passes on what lies ahead:
 /// with less, faces along a surface would; with more, a front that is hardly inclined is smeared.
-const NORMAL: f64 = 0.7;
+const MIN_NORMAL: f64 = 0.7;
 /// Cells that liquid crosses at most between two looks at the surface: a front keeps its shape to first order in it, and
 /// looks cost next to nothing beside a solution.
-const CROSSED: f64 = 0.25;
+const SUBSTEP_CFL: f64 = 0.25;
 
 /// Volume, cells, that counts as none: what rounding leaves behind a front. A larger one would be liquid that is lost.
 pub(crate) const TRACE: f64 = 1e-9;
@@ -20,7 +20,7 @@ pub(crate) const TRACE: f64 = 1e-9;
 pub(super) const ROUNDING: f64 = 1e-14;
 /// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is:
 /// all that settle take fewer.
-pub(super) const PASSES: usize = 100;
+pub(super) const MAX_SWEEPS: usize = 100;
 
 /// Liquid after a step.
 pub(crate) struct Moved {
@@ -46,7 +46,7 @@ pub(crate) fn transport(
 ) -> Moved {
     let fastest = velocity.iter().fold(0.0_f64, |most, v| v.abs().max(most));
     // What rounding adds is no look more.
-    let parts = (fastest * dt / CROSSED - 1e-9).ceil().max(1.0);
+    let parts = (fastest * dt / SUBSTEP_CFL - 1e-9).ceil().max(1.0);
     let swept: Vec<f64> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)
@@ -57,15 +57,21 @@ pub(crate) fn transport(
         lost: [0.0; 2],
     };
     for _ in 0..parts as usize {
-        look(mesh, &mut moved, full, capacities, &swept);
+        advect_substep(mesh, &mut moved, full, capacities, &swept);
     }
     moved
 }
 
 /// Moves the liquid on by the volumes that faces sweep.
-fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept: &[f64]) {
+fn advect_substep(
+    mesh: &Mesh,
+    moved: &mut Moved,
+    full: &[bool],
+    capacities: &[f64],
+    swept: &[f64],
+) {
     let (volumes, water) = (&mut moved.volumes, &mut moved.water);
-    let held = volumes.clone();
+    let volumes_before = volumes.clone();
     let pores = 0..mesh.pores.len();
     let fractions: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] {
@@ -74,7 +80,7 @@ fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept
         })
         .collect();
     let mut flux: Vec<f64> = (swept.par_iter().enumerate())
-        .map(|(face, &swept)| swept.signum() * passed(mesh, &fractions, face, swept))
+        .map(|(face, &swept)| swept.signum() * donor_acceptor(mesh, &fractions, face, swept))
         .collect();
     let shares: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] || volumes[pore] == 0.0 {
@@ -93,10 +99,10 @@ fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept
         .for_each(|(pore, volume)| {
             *volume += net_inflow(mesh, &flux, pore);
         });
-    give_back(mesh, volumes, &mut flux);
+    return_overdraft(mesh, volumes, &mut flux);
     overflow(mesh, volumes, capacities, full, swept, &mut flux);
     if !water.is_empty() {
-        carry(mesh, &held, water, &flux);
+        advect_water(mesh, &volumes_before, water, &flux);
     }
     for (pore, volume) in volumes.iter_mut().enumerate() {
         if mesh.is_beyond(mesh.cell(pore)) {
@@ -108,20 +114,22 @@ fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept
 
 /// Gives pores that passed on more than they had, by the tolerance of the solution, back what is missing: from the pores that
 /// they passed it to, in proportion, which may lack it then in their turn.
-fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
-    for _ in 0..PASSES {
+fn return_overdraft(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
+    for _ in 0..MAX_SWEEPS {
         let mut returned: Vec<(usize, bool, f64)> = Vec::new();
         for pore in (0..volumes.len()).filter(|&pore| volumes[pore] < -ROUNDING) {
-            let passed = |way: &Way| (way.sign() * flux[way.face]).max(0.0);
+            let passed = |neighbour: &Neighbour| (neighbour.sign() * flux[neighbour.face]).max(0.0);
             let part = (-volumes[pore] / outflow(mesh, flux, pore)).min(1.0);
-            let each = mesh.ways(pore);
-            returned.extend(each.map(|way| (way.face, way.up, part * passed(&way))));
+            let each = mesh.neighbours(pore);
+            returned.extend(
+                each.map(|neighbour| (neighbour.face, neighbour.up, part * passed(&neighbour))),
+            );
         }
         if returned.is_empty() {
             break;
         }
-        for (face, up, volume) in returned.into_iter().filter(|way| way.2 > 0.0) {
-            pass(mesh, volumes, flux, (face, up, -volume));
+        for (face, up, volume) in returned.into_iter().filter(|returned| returned.2 > 0.0) {
+            move_through(mesh, volumes, flux, (face, up, -volume));
         }
     }
     for volume in volumes.iter_mut() {
@@ -130,7 +138,7 @@ fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
 }
 
 /// Passes a volume on by a face that is on the high (`up`) or low side of the pore which it leaves; that pore enters.
-pub(super) fn pass(
+pub(super) fn move_through(
     mesh: &Mesh,
     volumes: &mut [f64],
     flux: &mut [f64],
@@ -157,7 +165,7 @@ fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
 }
 
 /// Liquid in the volume that a face sweeps.
-fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
+fn donor_acceptor(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
     let axis = usize::from(mesh.faces[face].axis);
     let [low, high] = mesh.faces[face].ends();
     let (donor, next, sign) = match swept > 0.0 {
@@ -179,7 +187,7 @@ fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
         .sqrt();
     // Air with liquid before and behind it is no surface; it stays behind.
     let hole = own <= ahead && own <= behind;
-    if hole || change == 0.0 || change.abs() < NORMAL * aside {
+    if hole || change == 0.0 || change.abs() < MIN_NORMAL * aside {
         return own * swept;
     }
     let volume = mesh.volume(donor);
@@ -190,14 +198,14 @@ fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
 /// What leaves a pore.
 fn outflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
     let out = mesh
-        .ways(pore)
-        .map(|way| (way.sign() * flux[way.face]).max(0.0));
+        .neighbours(pore)
+        .map(|neighbour| (neighbour.sign() * flux[neighbour.face]).max(0.0));
     out.sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 /// What comes into a pore less what leaves it.
 fn net_inflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
-    mesh.ways(pore)
-        .map(|way| -way.sign() * flux[way.face])
+    mesh.neighbours(pore)
+        .map(|neighbour| -neighbour.sign() * flux[neighbour.face])
         .sum()
 }

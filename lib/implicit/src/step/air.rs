@@ -118,9 +118,11 @@ impl Implicit {
         let lowest = -tension / self.setup.units.viscosity;
         let mesh = &self.mesh;
         let outflow = |pore: usize| -> f64 {
-            let each = mesh.ways(pore);
-            each.map(|way| way.sign() * mesh.area(way.face) * flow.velocity[way.face])
-                .sum()
+            let each = mesh.neighbours(pore);
+            each.map(|neighbour| {
+                neighbour.sign() * mesh.area(neighbour.face) * flow.velocity[neighbour.face]
+            })
+            .sum()
         };
         let mut others = false;
         for (pore, torn) in torn.iter_mut().enumerate() {

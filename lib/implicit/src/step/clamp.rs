@@ -4,7 +4,7 @@ use physics::StepLimit;
 
 use super::Implicit;
 use super::drive::Hold;
-use super::middle::Middle;
+use super::mid_step::MidStep;
 use super::solve::Solved;
 use crate::settings::MISSED;
 use crate::system::{Drive, Flow, STILL};
@@ -126,12 +126,12 @@ impl Implicit {
     }
 
     /// Height of the gap in the middle of a step of `dt` (s) as it was assumed, and by the speed found, cells.
-    fn heights(&self, middle: &Middle, solved: &Solved, dt: f64) -> [f64; 2] {
+    fn heights(&self, middle: &MidStep, solved: &Solved, dt: f64) -> [f64; 2] {
         [middle.closing, solved.flow.speed].map(|closing| self.middle_height(dt, closing))
     }
 
     /// The same with the liquid in the `middle` of the step as it is.
-    fn solve_middle(&mut self, middle: &Middle, guess: &mut Flow) -> Result<Solved, String> {
+    fn solve_middle(&mut self, middle: &MidStep, guess: &mut Flow) -> Result<Solved, String> {
         if let Some(hold) = self.state.drive.held() {
             return self.solve_held(middle, hold, guess);
         }
@@ -147,7 +147,7 @@ impl Implicit {
     /// The same under a pressure on the clamp, at the nearest speed that it can follow.
     fn solve_held(
         &mut self,
-        middle: &Middle,
+        middle: &MidStep,
         hold: Hold,
         guess: &mut Flow,
     ) -> Result<Solved, String> {

@@ -97,9 +97,9 @@ mod tests {
             dt * compression.released(&[0], &[0.0])[0]
         };
         for off in [-0.1, 0.1] {
-            let ways = [1.0, 0.1].map(|dt| released(1.0 + off, 0.0, dt));
-            assert!((ways[0] - off).abs() < 1e-12, "{ways:?}");
-            assert!((ways[1] - 0.1 * off).abs() < 1e-12, "{ways:?}");
+            let moved = [1.0, 0.1].map(|dt| released(1.0 + off, 0.0, dt));
+            assert!((moved[0] - off).abs() < 1e-12, "{moved:?}");
+            assert!((moved[1] - 0.1 * off).abs() < 1e-12, "{moved:?}");
         }
         let denser = 1.0 / (1.0 + Tait { bulk_modulus: 1e9 }.volume_change(1e6)) - 1.0;
         assert!((released(1.0 + denser, 1e6, 0.1) / denser - 1.0).abs() < 1e-9);

@@ -9,13 +9,13 @@
 use physics::Water;
 
 use super::Implicit;
-use super::water::Wet;
+use super::water::WaterBalance;
 use crate::liquid::TRACE;
 use crate::water::{Node, Walls, solve};
 
 /// What a step moves.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Exchange {
+pub(super) struct WaterExchange {
     /// Water that each pore gains, and that its walls take, cells.
     pub(super) gained: Vec<f64>,
     pub(super) taken: Vec<f64>,
@@ -27,7 +27,7 @@ pub(super) struct Exchange {
     pub(super) fluidity: f64,
 }
 
-impl Exchange {
+impl WaterExchange {
     /// That of `nodes` among so many `pores` that come to a `ratio` of water to solids, some of them held `at_limit`.
     fn new(
         nodes: &[Node],
@@ -48,7 +48,7 @@ impl Exchange {
             let gained = match at_limit[n] {
                 // Walls give nothing back.
                 true => (node.solids * (ratio[n] - node.ratio)).min(flow),
-                false => flow - node.asked,
+                false => flow - node.demand,
             };
             (found.gained[pore], found.taken[pore]) = (gained, flow - gained);
             let [begin, end] = [node.ratio, ratio[n]].map(|ratio| water.factor(ratio));
@@ -66,7 +66,11 @@ impl Exchange {
 
 impl Implicit {
     /// What a step of `dt` (s) moves of the water, in pores filled to `fractions` in its middle.
-    pub(super) fn exchange(&self, dt: f64, fractions: &[f64]) -> Result<Option<Exchange>, String> {
+    pub(super) fn exchange(
+        &self,
+        dt: f64,
+        fractions: &[f64],
+    ) -> Result<Option<WaterExchange>, String> {
         let (Some(water), Some(walls), Some(wet)) =
             (&self.setup.liquid.water, &self.walls, &self.state.wet)
         else {
@@ -78,7 +82,7 @@ impl Implicit {
              viscosity_by_solids is needed",
         )?;
         let pores = self.mesh.pores.len();
-        Ok(Some(Exchange::new(&nodes, pores, water, solved)))
+        Ok(Some(WaterExchange::new(&nodes, pores, water, solved)))
     }
 
     /// The pores with liquid and what passes between them.
@@ -86,7 +90,7 @@ impl Implicit {
         &self,
         dt: f64,
         fractions: &[f64],
-        (water, walls, wet): (&Water, &Walls, &Wet),
+        (water, walls, wet): (&Water, &Walls, &WaterBalance),
     ) -> Vec<Node> {
         let (mesh, h) = (&self.mesh, self.setup.units.cell_m);
         // What walls hold per area, and take of it, cells; and what differences of X pass on between cells.
@@ -101,13 +105,13 @@ impl Implicit {
             }
             number[pore] = Some(nodes.len() as u32);
             let area = walls.area(mesh, pore);
-            let room = (capacity * area - wet.soaked[pore]).max(0.0);
+            let unsoaked = (capacity * area - wet.soaked[pore]).max(0.0);
             nodes.push(Node {
                 pore: pore as u32,
                 solids,
                 ratio: wet.water[pore] / solids,
-                asked: fractions[pore] * room.min(uptake * area),
-                beside: Vec::new(),
+                demand: fractions[pore] * unsoaked.min(uptake * area),
+                neighbours: Vec::new(),
             });
         }
         for (index, face) in mesh.faces.iter().enumerate() {
@@ -125,8 +129,8 @@ impl Implicit {
             let dry = |n: u32| 1.0 / (1.0 + nodes[n as usize].ratio);
             let k = diffusion * filled * area / distance * 0.5 * (dry(low) + dry(high));
             if k > 0.0 {
-                nodes[low as usize].beside.push((high, k));
-                nodes[high as usize].beside.push((low, k));
+                nodes[low as usize].neighbours.push((high, k));
+                nodes[high as usize].neighbours.push((low, k));
             }
         }
         nodes

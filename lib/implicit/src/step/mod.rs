@@ -2,14 +2,14 @@
 
 mod air;
 mod clamp;
+mod completion;
 mod compression;
 mod drive;
 mod exchange;
 mod failure;
-mod fit;
-mod follow;
-mod middle;
+mod mid_step;
 mod output;
+mod remesh;
 mod scheme;
 mod setup;
 mod solve;
@@ -23,13 +23,13 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::clock::{Clock, Stage};
 use crate::geometry::Mesh;
 use crate::settings::Settings;
-use crate::system::{Edges, Flow, Links};
+use crate::system::{Edges, Flow, WallCouplings};
 use crate::water::Walls;
 use air::HeldAir;
+use completion::fastest;
 use drive::ClampDrive;
-use follow::fastest;
 use setup::Setup;
-use water::Wet;
+use water::WaterBalance;
 
 /// Attempts at a step of acceptable length; the second nearly always is.
 const ATTEMPTS: usize = 8;
@@ -47,7 +47,7 @@ pub struct Implicit {
     setup: Setup,
     state: State,
     mesh: Mesh,
-    links: Links,
+    couplings: WallCouplings,
     edges: Edges,
     /// Walls of the mesh that take water.
     walls: Option<Walls>,
@@ -83,7 +83,7 @@ struct State {
     /// Steps whose passes did not settle.
     unsettled: u64,
     /// Of a liquid that loses water.
-    wet: Option<Wet>,
+    wet: Option<WaterBalance>,
 }
 
 impl Implicit {
@@ -125,7 +125,7 @@ impl Implicit {
             walls: None,
             setup,
             mesh,
-            links: Links::default(),
+            couplings: WallCouplings::default(),
         };
         scheme.fit_mesh();
         scheme.state.air = scheme.first_air();

@@ -12,13 +12,13 @@ impl Implicit {
     pub(super) fn points(&self) -> LiquidState {
         let (mut state, shown) = self.filled_voxels();
         // The walls of the gap of now: the last step's are of that in its middle.
-        let mut links = self.links.clone();
+        let mut couplings = self.couplings.clone();
         let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
             .collect();
-        links.measure(&self.setup.channels(&self.mesh), &fractions);
+        couplings.measure(&self.setup.channels(&self.mesh), &fractions);
         let field = FlowField {
-            links: &links,
+            couplings: &couplings,
             ..self.field(&self.state.flow)
         };
         let (rates, _) = field.pore_rates(self.setup.liquid.shear_rate);

@@ -7,7 +7,7 @@ use physics::{
 
 use super::Implicit;
 use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::Kept;
+use crate::liquid::FaceMap;
 
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
@@ -168,7 +168,7 @@ impl Scheme for Implicit {
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement;
         (self.mesh, self.height) = (mesh, height);
-        self.find_walls(&Kept::default());
+        self.find_walls(&FaceMap::default());
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
 use super::drive::ClampDrive;
-use super::fit::MARGIN;
+use super::remesh::MARGIN;
 use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
 use crate::liquid::{Place, deposit};

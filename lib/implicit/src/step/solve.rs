@@ -5,13 +5,13 @@ use std::time::Instant;
 
 use super::Implicit;
 use super::compression::Compression;
-use super::exchange::Exchange;
-use super::middle::Middle;
+use super::exchange::WaterExchange;
+use super::mid_step::MidStep;
 use crate::air::Air;
 use crate::clock::{Clock, Stage};
 use crate::system::{
-    Drive, Flow, FlowField, PASSES, Problem, Search, Unknowns, Viscosities, forces, solve,
-    stiffnesses,
+    Drive, Flow, FlowField, PASSES, Problem, Unknowns, Viscosities, ViscosityIteration, forces,
+    solve, stiffnesses,
 };
 
 /// A step that was solved.
@@ -27,7 +27,7 @@ pub(super) struct Solved {
     /// Whether the step ends the travel of the clamp.
     pub(super) arrives: bool,
     /// Of a liquid that loses water: what it loses.
-    pub(super) exchange: Option<Exchange>,
+    pub(super) exchange: Option<WaterExchange>,
 }
 
 impl Implicit {
@@ -35,7 +35,7 @@ impl Implicit {
     /// those of the flow.
     pub(super) fn solve_driven(
         &mut self,
-        middle: &Middle,
+        middle: &MidStep,
         drive: Drive,
         guess: &mut Flow,
     ) -> Result<Solved, String> {
@@ -47,7 +47,7 @@ impl Implicit {
 
     fn in_passes(
         &self,
-        middle: &Middle,
+        middle: &MidStep,
         drive: Drive,
         guess: &mut Flow,
         clock: &mut Clock,
@@ -57,15 +57,16 @@ impl Implicit {
         let mut torn = vec![false; mesh.pores.len()];
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
         let mut air = self.closed_off(&unknowns, fractions, dt);
-        let mut search = self.search(middle.viscosity, guess);
+        let mut viscosity_iteration = self.viscosity_iteration(middle.viscosity, guess);
         let mut flow = take(guess);
         let (mut forces, mut iterations) = (Vec::new(), 0);
         let (mut settled, mut astray) = (false, false);
         for _ in 0..PASSES {
             let begun = Instant::now();
             let lost = middle.lost.as_ref();
-            let thick = lost.map(|lost| (search.used).thickened(mesh, &self.edges, &lost.factor));
-            let viscosities = thick.as_ref().unwrap_or(&search.used);
+            let thick = lost
+                .map(|lost| (viscosity_iteration.used).thickened(mesh, &self.edges, &lost.factor));
+            let viscosities = thick.as_ref().unwrap_or(&viscosity_iteration.used);
             clock.add(Stage::Viscosity, begun);
             let last = take(&mut flow);
             let ends = (&torn[..], air.as_ref());
@@ -79,9 +80,9 @@ impl Implicit {
             if setup.varies() {
                 let rates = self
                     .field(&flow)
-                    .rates(setup.liquid.shear_rate, search.slip);
+                    .rates(setup.liquid.shear_rate, viscosity_iteration.slip);
                 let power = rates.power(viscosities, mesh, fractions);
-                settled &= search.go_on(rates, power);
+                settled &= viscosity_iteration.update(rates, power);
             }
             clock.add(Stage::Viscosity, begun);
             if self.tear(&unknowns, &flow, dt, &mut torn) {
@@ -112,7 +113,7 @@ impl Implicit {
 
     /// The search for the viscosity of the flow of a step, which begins with that of the flow `guess`; `viscosity` is that of
     /// no flow.
-    fn search(&self, viscosity: f64, guess: &Flow) -> Search<'_> {
+    fn viscosity_iteration(&self, viscosity: f64, guess: &Flow) -> ViscosityIteration<'_> {
         let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length);
         let factor = viscosity / self.setup.units.viscosity;
         let used = match self.setup.varies() && self.state.steps > 0 {
@@ -122,14 +123,14 @@ impl Implicit {
             }
             false => Viscosities::constant(&self.mesh, viscosity),
         };
-        Search::new(liquid, factor, slip, used)
+        ViscosityIteration::new(liquid, factor, slip, used)
     }
 
     /// A flow with the friction of the middle of the step.
     pub(super) fn field<'a>(&'a self, flow: &'a Flow) -> FlowField<'a> {
         FlowField {
             mesh: &self.mesh,
-            links: &self.links,
+            couplings: &self.couplings,
             edges: &self.edges,
             velocity: &flow.velocity,
             speed: flow.speed,
@@ -140,7 +141,7 @@ impl Implicit {
     /// its law.
     fn solve_pass(
         &self,
-        (middle, drive): (&Middle, Drive),
+        (middle, drive): (&MidStep, Drive),
         unknowns: &Unknowns,
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
@@ -154,7 +155,7 @@ impl Implicit {
         let problem = Problem {
             lattice: &setup.lattice,
             mesh,
-            links: &self.links,
+            couplings: &self.couplings,
             edges: &self.edges,
             unknowns,
             fractions,

@@ -2,7 +2,7 @@
 
 use physics::{Array, Saved, WaterState};
 
-use super::exchange::Exchange;
+use super::exchange::WaterExchange;
 use super::setup::Setup;
 use super::solve::Solved;
 use super::{Implicit, THICKENS};
@@ -15,7 +15,7 @@ const ACCOUNT: &str = "water_account";
 
 /// The water of a liquid that loses it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wet {
+pub(super) struct WaterBalance {
     /// Water in the liquid of each pore, and in its walls, cells.
     pub(super) water: Vec<f64>,
     pub(super) soaked: Vec<f64>,
@@ -29,7 +29,7 @@ pub(super) struct Wet {
     pub(super) fluidity: f64,
 }
 
-impl Wet {
+impl WaterBalance {
     /// For how long the loss of water leaves the viscosity as it is, s.
     pub(super) fn steady(&self) -> f64 {
         THICKENS / self.pace
@@ -42,7 +42,7 @@ impl Wet {
     }
 
     /// Takes what a step of `dt` (s) moves out of the liquid.
-    pub(super) fn give_off(&mut self, exchange: &Exchange, dt: f64, volumes: &mut [f64]) {
+    pub(super) fn give_off(&mut self, exchange: &WaterExchange, dt: f64, volumes: &mut [f64]) {
         for (pore, (&gained, &taken)) in exchange.gained.iter().zip(&exchange.taken).enumerate() {
             self.water[pore] += gained;
             volumes[pore] += gained;
@@ -65,13 +65,13 @@ impl Solved {
 
 impl Setup {
     /// The water of liquid `volumes` at the start.
-    pub(super) fn wet(&self, volumes: &[f64]) -> Option<Wet> {
+    pub(super) fn wet(&self, volumes: &[f64]) -> Option<WaterBalance> {
         let start = self.liquid.water.as_ref()?.start();
         let water: Vec<f64> = volumes
             .iter()
             .map(|volume| volume * start / (1.0 + start))
             .collect();
-        Some(Wet {
+        Some(WaterBalance {
             start: water.iter().sum(),
             soaked: vec![0.0; water.len()],
             water,
@@ -126,7 +126,7 @@ impl Implicit {
         &self,
         saved: &Saved,
         volumes: &[f64],
-    ) -> Result<Option<Wet>, String> {
+    ) -> Result<Option<WaterBalance>, String> {
         let Some(wet) = &self.state.wet else {
             return Ok(None);
         };
@@ -135,7 +135,7 @@ impl Implicit {
         let &[start, in_walls, left, pace, fluidity] = account else {
             return Err("the checkpoint's account of water is not that of this scheme".into());
         };
-        let found = Wet {
+        let found = WaterBalance {
             water: water.to_vec(),
             soaked: soaked.to_vec(),
             start,

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
 
+use super::couplings::WallCouplings;
 use super::edges::Edges;
 use super::fronts::Fronts;
-use super::links::Links;
 use super::stretching::stretching;
 use super::unknowns::Unknowns;
 use super::viscosity::Viscosities;
@@ -37,7 +37,7 @@ pub(crate) struct Scales {
 pub(crate) struct Problem<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) mesh: &'a Mesh,
-    pub(crate) links: &'a Links,
+    pub(crate) couplings: &'a WallCouplings,
     pub(crate) edges: &'a Edges,
     pub(crate) unknowns: &'a Unknowns,
     /// Volume fraction of each pore, at most 1.
@@ -97,9 +97,9 @@ impl Problem<'_> {
     }
 
     fn momentum(&self, face: usize, row: usize, entries: &mut RowEntries) {
-        let link = self.links.of(face);
+        let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
-        let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
+        let friction = weights[0] * coupling.friction[0] + weights[1] * coupling.friction[1];
         let drag = self.fronts.drag.get(face).copied().unwrap_or_default();
         let mut own = friction + drag + self.scales.inertia * self.masses[face] + FREE;
         let number = |face: usize| self.unknowns.face(face);
@@ -164,10 +164,10 @@ impl Problem<'_> {
         let standing = self.scales.gravity[axis] * carried + self.push(face);
         let known = inertia * self.before[face] + standing;
         let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
-        let link = self.links.of(face);
+        let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
         let etas = self.viscosities.at_walls(face, f.ends());
-        for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(link.sliding) {
+        for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(coupling.sliding) {
             force[0] += weight * own;
             force[1] += weight * closing;
             force[4] += clinging(eta) * weight * own;
@@ -203,9 +203,9 @@ impl Problem<'_> {
     }
 
     fn resistance_of(&self, face: usize) -> f64 {
-        let link = self.links.of(face);
+        let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
-        let walls = weights[0] * link.resistance[0] + weights[1] * link.resistance[1];
+        let walls = weights[0] * coupling.resistance[0] + weights[1] * coupling.resistance[1];
         if self.mesh.faces[face].axis != 1 {
             return walls;
         }
@@ -238,17 +238,17 @@ impl Problem<'_> {
     pub(crate) fn viscous_parts(&self, u: &[f64], speed: f64) -> f64 {
         let part = |(&face, u): (&u32, &f64)| {
             let face = face as usize;
-            let link = self.links.of(face);
+            let coupling = self.couplings.of(face);
             let weights = self.wall_weights(face);
             let frame = match self.mesh.faces[face].axis {
                 1 => self.mesh.frame(self.lattice, face) * speed,
                 _ => 0.0,
             };
             let walls: f64 = (0..2)
-                .filter(|&half| link.sliding[half][0] != 0.0)
+                .filter(|&half| coupling.sliding[half][0] != 0.0)
                 .map(|half| {
-                    let own = link.sliding[half][0];
-                    weights[half] * (own * own / link.friction[half] - 2.0 * own * u)
+                    let own = coupling.sliding[half][0];
+                    weights[half] * (own * own / coupling.friction[half] - 2.0 * own * u)
                 })
                 .sum();
             walls - self.scales.inertia * self.masses[face] * (u + frame).powi(2)

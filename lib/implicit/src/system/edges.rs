@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::geometry::{Lattice, Mesh, others};
-use crate::liquid::Kept;
+use crate::liquid::FaceMap;
 
 /// An edge that a face shares with the next face across.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +95,7 @@ pub(crate) struct Edges {
 
 impl Edges {
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &Kept, old: &Self) -> Self {
+    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &FaceMap, old: &Self) -> Self {
         let mut now = vec![None; old.start.len()];
         for (face, old_face) in kept.0.iter().enumerate() {
             if let Some((old_face, _)) = old_face {
@@ -220,8 +220,8 @@ fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
     let f = mesh.faces[face];
     let cells = f.ends().map(|pore| mesh.cell(pore));
     let beside = [
-        mesh.neighbour(cells[0], t, up)?,
-        mesh.neighbour(cells[1], t, up)?,
+        mesh.next_cell(cells[0], t, up)?,
+        mesh.next_cell(cells[1], t, up)?,
     ];
     let first = |cell: usize, axis: usize| mesh.faces_of(cell, axis).start as u32;
     let k = mesh.k as u8;
@@ -261,8 +261,8 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     let ends = f.ends();
     let cells = ends.map(|pore| mesh.cell(pore));
     let beside = [
-        mesh.neighbour(cells[0], t, up)?,
-        mesh.neighbour(cells[1], t, up)?,
+        mesh.next_cell(cells[0], t, up)?,
+        mesh.next_cell(cells[1], t, up)?,
     ];
     let voxel = |half: usize| {
         let mut at = [0; 3];

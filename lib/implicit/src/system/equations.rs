@@ -156,10 +156,13 @@ impl Equations {
 
 /// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
-    let link = problem.links.of(face);
+    let coupling = problem.couplings.of(face);
     let slip = problem.scales.influence_length;
     let narrow = match slip.is_finite() {
-        true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
+        true => {
+            12.0 * coupling.inverse_width_squared
+                / (1.0 + 6.0 * slip * coupling.inverse_width_squared.sqrt())
+        }
         false => 0.0,
     };
     let [low, high] = problem

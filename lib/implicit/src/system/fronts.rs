@@ -6,9 +6,9 @@ use saddle_point::RowEntries;
 
 use super::assembly::Problem;
 use super::unknowns::Unknowns;
-use crate::geometry::{Chords, Lattice, Mesh, Way, narrowness};
+use crate::geometry::{Chords, Lattice, Mesh, Neighbour, perimeter_over_area};
 
-/// Way in a step, cells, that counts as rest: far less than a step moves, far more than solutions are off by. A meniscus that goes
+/// Neighbour in a step, cells, that counts as rest: far less than a step moves, far more than solutions are off by. A meniscus that goes
 /// it is held by half of all that holds it (docs/methods.md section 3.12).
 pub(crate) const STILL: f64 = 0.01;
 
@@ -28,7 +28,7 @@ pub(crate) struct Wetting {
 }
 
 impl Wetting {
-    /// What the jump of a passage of unit narrowness loses over the speed of a meniscus that advanced at `speed`, no further than
+    /// What the jump of a passage of unit perimeter_over_area loses over the speed of a meniscus that advanced at `speed`, no further than
     /// to an angle of 180 or 0 degrees.
     fn slowing(&self, speed: f64) -> f64 {
         let left = match speed > 0.0 {
@@ -83,15 +83,16 @@ impl Fronts {
             .map(|pore| {
                 !torn[pore]
                     && empty(pore)
-                    && (mesh.ways(pore)).any(|way| unknowns.has_pressure(way.beside))
+                    && (mesh.neighbours(pore))
+                        .any(|neighbour| unknowns.has_pressure(neighbour.pore))
             })
             .collect();
         let narrow: Vec<f64> = (0..mesh.pores.len())
             .into_par_iter()
             .map(|pore| {
-                let near = dry[pore] || mesh.ways(pore).any(|way| dry[way.beside]);
+                let near = dry[pore] || mesh.neighbours(pore).any(|neighbour| dry[neighbour.pore]);
                 match near && !mesh.is_beyond(mesh.cell(pore)) {
-                    true => narrowness(lattice, chords, mesh, pore, &|pore| {
+                    true => perimeter_over_area(lattice, chords, mesh, pore, &|pore| {
                         unknowns.has_pressure(pore)
                     }),
                     false => 0.0,
@@ -159,7 +160,7 @@ impl View<'_> {
         narrow * self.wetting.slowing(into.sum::<f64>() / section) / section
     }
 
-    /// Half of what the narrowness varies by where a meniscus that leaves `wet` for `dry` along an axis may rest: where
+    /// Half of what the perimeter_over_area varies by where a meniscus that leaves `wet` for `dry` along an axis may rest: where
     /// its pull falls ahead, and along it.
     fn uneven(&self, axis: usize, up: bool, wet: usize, dry: usize) -> f64 {
         let here = self.narrow[dry];
@@ -167,14 +168,14 @@ impl View<'_> {
             [here.min(self.narrow[wet]), here.max(self.narrow[wet])],
             [here; 2],
         );
-        for way in self.mesh.ways(dry) {
-            let Way { beside, .. } = way;
+        for neighbour in self.mesh.neighbours(dry) {
+            let Neighbour { pore: beside, .. } = neighbour;
             let narrow = self.narrow[beside];
             let widen =
                 |range: &mut [f64; 2]| *range = [range[0].min(narrow), range[1].max(narrow)];
-            if way.axis == axis && way.up == up {
+            if neighbour.axis == axis && neighbour.up == up {
                 widen(&mut ahead);
-            } else if way.axis != axis && (self.empty)(beside) {
+            } else if neighbour.axis != axis && (self.empty)(beside) {
                 widen(&mut behind);
                 widen(&mut ahead);
             }
@@ -195,9 +196,14 @@ fn into<'a>(
     unknowns: &'a Unknowns,
     pore: usize,
 ) -> impl Iterator<Item = (usize, f64)> + 'a {
-    (mesh.ways(pore))
-        .filter(|way| unknowns.has_pressure(way.beside))
-        .map(|way| (way.face, -way.sign() * mesh.area(way.face)))
+    (mesh.neighbours(pore))
+        .filter(|neighbour| unknowns.has_pressure(neighbour.pore))
+        .map(|neighbour| {
+            (
+                neighbour.face,
+                -neighbour.sign() * mesh.area(neighbour.face),
+            )
+        })
 }
 
 impl Problem<'_> {
@@ -238,9 +244,13 @@ impl Problem<'_> {
         entries: &mut RowEntries,
         counts: impl Fn(usize) -> bool,
     ) {
-        for way in self.mesh.ways(pore).filter(|way| counts(way.beside)) {
-            if let Some(number) = self.unknowns.face(way.face) {
-                entries.add(number, way.sign() * self.mesh.area(way.face));
+        for neighbour in self
+            .mesh
+            .neighbours(pore)
+            .filter(|neighbour| counts(neighbour.pore))
+        {
+            if let Some(number) = self.unknowns.face(neighbour.face) {
+                entries.add(number, neighbour.sign() * self.mesh.area(neighbour.face));
             }
         }
     }

@@ -165,7 +165,7 @@ impl FlowField<'_> {
                         rate += edge.columns() * edge.slope(mesh, face, self.velocity);
                     }
                 }
-                let inside = mesh.neighbour(mesh.cell(f.low as usize), across[i], up);
+                let inside = mesh.next_cell(mesh.cell(f.low as usize), across[i], up);
                 match (inside, up) {
                     (None, _) => rate,
                     (_, true) => rate + walls * at_walls,
@@ -178,14 +178,14 @@ impl FlowField<'_> {
 
     /// Rate of shear at the walls of a face by which they pull it on, 1/s.
     fn pull_of_walls(&self, face: usize) -> f64 {
-        let link = self.links.of(face);
-        if link.area == 0.0 {
+        let coupling = self.couplings.of(face);
+        if coupling.area == 0.0 {
             return 0.0;
         }
         let pull = |half: usize| {
-            let [own, closing] = link.sliding[half];
-            own + closing * self.speed - link.friction[half] * self.velocity[face]
+            let [own, closing] = coupling.sliding[half];
+            own + closing * self.speed - coupling.friction[half] * self.velocity[face]
         };
-        (pull(0) + pull(1)) / link.area
+        (pull(0) + pull(1)) / coupling.area
     }
 }

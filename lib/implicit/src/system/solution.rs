@@ -131,16 +131,16 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
     }
     for &face in &problem.unknowns.faces {
         let face = face as usize;
-        let link = problem.links.of(face);
+        let coupling = problem.couplings.of(face);
         if mesh.faces[face].axis == 1 {
             let weights = problem.wall_weights(face);
             let drag: f64 = (0..2)
                 .map(|half| {
-                    let wall = link.sliding[half][0] + flow.speed * link.sliding[half][1];
-                    weights[half] * (link.friction[half] * flow.velocity[face] - wall)
+                    let wall = coupling.sliding[half][0] + flow.speed * coupling.sliding[half][1];
+                    weights[half] * (coupling.friction[half] * flow.velocity[face] - wall)
                 })
                 .sum();
-            push(link.body, drag);
+            push(coupling.body, drag);
             for (pore, up) in problem.ends(face).into_iter().zip([false, true]) {
                 stretching(mesh, face, up, |pull| {
                     if pull.other.is_none() {

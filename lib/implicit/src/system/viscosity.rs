@@ -3,11 +3,11 @@
 use physics::{Liquid, ShearRate, Viscosity};
 use rayon::prelude::*;
 
+use super::couplings::WallCouplings;
 use super::edges::Edges;
-use super::links::Links;
 use super::stretching::stretching;
 use super::thinning::{steepness, thinning_distance};
-use crate::geometry::{Mesh, Way, others};
+use crate::geometry::{Mesh, Neighbour, others};
 
 /// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge; none of the latter two
 /// where they are those of the pores.
@@ -127,7 +127,7 @@ fn of_shear(square: f64, convention: ShearRate) -> f64 {
 /// A flow with the friction of walls, to take rates of.
 pub(crate) struct FlowField<'a> {
     pub(crate) mesh: &'a Mesh,
-    pub(crate) links: &'a Links,
+    pub(crate) couplings: &'a WallCouplings,
     pub(crate) edges: &'a Edges,
     /// Velocity of each face, cells/s.
     pub(crate) velocity: &'a [f64],
@@ -191,7 +191,7 @@ impl FlowField<'_> {
     fn parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
-        for Way { face, axis, up, .. } in mesh.ways(pore) {
+        for Neighbour { face, axis, up, .. } in mesh.neighbours(pore) {
             if !up {
                 // The pore is on the high side of its low faces.
                 stretching(mesh, face, true, |pull| {
@@ -203,12 +203,12 @@ impl FlowField<'_> {
             for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
                 parts[1 + around] += sheared;
             }
-            let link = self.links.of(face);
+            let coupling = self.couplings.of(face);
             let half = usize::from(!up);
-            if link.friction[half] > 0.0 {
-                let [own, closing] = link.sliding[half];
-                let wall = (own + closing * self.speed) / link.friction[half];
-                walls += link.friction[half] * (u[face] - wall).powi(2);
+            if coupling.friction[half] > 0.0 {
+                let [own, closing] = coupling.sliding[half];
+                let wall = (own + closing * self.speed) / coupling.friction[half];
+                walls += coupling.friction[half] * (u[face] - wall).powi(2);
             }
         }
         let volume = mesh.volume(pore);
@@ -217,15 +217,15 @@ impl FlowField<'_> {
 
     /// What the walls of a face do.
     fn wall_rate(&self, face: usize, slip: f64) -> Wall {
-        let link = self.links.of(face);
-        let friction: f64 = link.friction.iter().sum();
+        let coupling = self.couplings.of(face);
+        let friction: f64 = coupling.friction.iter().sum();
         if friction == 0.0 {
             return Wall::default();
         }
         let wall: f64 = (0..2)
-            .map(|half| link.sliding[half][0] + link.sliding[half][1] * self.speed)
+            .map(|half| coupling.sliding[half][0] + coupling.sliding[half][1] * self.speed)
             .sum();
-        if link.area == 0.0 {
+        if coupling.area == 0.0 {
             // Past a corner alone, a cell off.
             return Wall {
                 rate: (self.velocity[face] - wall / friction).abs(),
@@ -235,10 +235,10 @@ impl FlowField<'_> {
             };
         }
         Wall {
-            rate: (friction * self.velocity[face] - wall).abs() / link.area,
-            distance: (link.area / friction - slip).max(0.0),
-            width: link.narrowness.powf(-0.5),
-            first: link.height / link.area,
+            rate: (friction * self.velocity[face] - wall).abs() / coupling.area,
+            distance: (coupling.area / friction - slip).max(0.0),
+            width: coupling.inverse_width_squared.powf(-0.5),
+            first: coupling.height / coupling.area,
         }
     }
 }

@@ -65,7 +65,7 @@ fn inclination(
     let radius = AROUND * mesh.k as f64;
     let reach = (radius + 0.5) as i64;
     let deep = if lattice.flat { 0 } else { reach };
-    let mut way = [0.0; 3];
+    let mut centroid = [0.0; 3];
     for dz in -deep..=deep {
         for dy in -reach..=reach {
             for dx in -reach..=reach {
@@ -76,13 +76,13 @@ fn inclination(
                 let weight = 1.0 - square / (radius * radius);
                 let place = std::array::from_fn(|a| at[a] + offset[a]);
                 if weight > 0.0 && is_open(lattice, mesh.rows().gap as i64 * k, place) {
-                    (0..3).for_each(|a| way[a] += weight * from_face[a]);
+                    (0..3).for_each(|a| centroid[a] += weight * from_face[a]);
                 }
             }
         }
     }
-    let length = way.iter().map(|d| d * d).sum::<f64>().sqrt();
-    let inwards = if up { -way[axis] } else { way[axis] };
+    let length = centroid.iter().map(|d| d * d).sum::<f64>().sqrt();
+    let inwards = if up { -centroid[axis] } else { centroid[axis] };
     (inwards / length).max(0.0)
 }
 

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::Implicit;
-use super::exchange::Exchange;
+use super::exchange::WaterExchange;
 use crate::clock::Stage;
 use crate::liquid::transport;
 use crate::system::{FULL, Flow, halves, masses};
@@ -13,7 +13,7 @@ use crate::system::{FULL, Flow, halves, masses};
 const OVERFILLED: f64 = 0.03;
 
 /// The liquid in the middle of a step, and what all solutions have in common that begin there.
-pub(super) struct Middle {
+pub(super) struct MidStep {
     pub(super) dt: f64,
     /// Closing speed that puts the rows there, cells/s, and the height of the gap at the end of the step by it, cells.
     pub(super) closing: f64,
@@ -28,10 +28,10 @@ pub(super) struct Middle {
     /// Factor of the viscosity by cure.
     pub(super) viscosity: f64,
     /// Of a liquid that loses water: what it loses.
-    pub(super) lost: Option<Exchange>,
+    pub(super) lost: Option<WaterExchange>,
 }
 
-impl Middle {
+impl MidStep {
     /// Whether more pores have a pressure than in `other`.
     pub(super) fn meets_more(&self, other: &Self) -> bool {
         let both = self.fractions.iter().zip(&other.fractions);
@@ -43,7 +43,7 @@ impl Middle {
 impl Implicit {
     /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
     /// that the clamp is asked for. Voids that a `flow` would fill are full, as are pores that were so `before`, in another middle of the step.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> Middle {
+    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> MidStep {
         let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
         let mut full: Vec<bool> = (self.state.volumes.iter().enumerate())
@@ -64,7 +64,7 @@ impl Implicit {
         let begun = Instant::now();
         if closes {
             let channels = self.setup.channels(&self.mesh);
-            self.links.measure(&channels, &fractions);
+            self.couplings.measure(&channels, &fractions);
         }
         self.clock.add(Stage::Geometry, begun);
         let begun = Instant::now();
@@ -72,7 +72,7 @@ impl Implicit {
         let masses = masses(&self.mesh, &halves);
         self.clock.add(Stage::Assembly, begun);
         let cure = self.setup.liquid.cure.as_ref();
-        Middle {
+        MidStep {
             dt,
             closing,
             end,
@@ -86,7 +86,7 @@ impl Implicit {
     }
 
     /// Finds what liquid loses in a `middle` that is solved.
-    pub(super) fn dry(&mut self, middle: &mut Middle) -> Result<(), String> {
+    pub(super) fn dry(&mut self, middle: &mut MidStep) -> Result<(), String> {
         let begun = Instant::now();
         middle.lost = self.exchange(middle.dt, &middle.fractions)?;
         if middle.lost.is_some() {
@@ -115,8 +115,14 @@ impl Implicit {
             let (mut inflow, mut room) = (0.0, 0.0);
             for pore in void.iter().map(|&pore| pore as usize) {
                 room += self.capacity(pore, end) - volumes[pore];
-                for way in mesh.ways(pore).filter(|way| full[way.beside]) {
-                    inflow -= way.sign() * mesh.area(way.face) * flow.velocity[way.face] * dt;
+                for neighbour in mesh
+                    .neighbours(pore)
+                    .filter(|neighbour| full[neighbour.pore])
+                {
+                    inflow -= neighbour.sign()
+                        * mesh.area(neighbour.face)
+                        * flow.velocity[neighbour.face]
+                        * dt;
                 }
             }
             all += inflow.max(0.0);
@@ -175,7 +181,7 @@ impl Implicit {
     }
 
     /// Whether a flow that was solved in a `middle` brings into voids more than they have room for.
-    pub(super) fn overfills(&self, middle: &Middle, flow: &Flow) -> bool {
+    pub(super) fn overfills(&self, middle: &MidStep, flow: &Flow) -> bool {
         let end = self.end_height(middle.dt, flow.speed);
         self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > OVERFILLED
     }

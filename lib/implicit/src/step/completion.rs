@@ -5,7 +5,7 @@ use std::time::Instant;
 use physics::{Motion, StepLimit, StepReport};
 
 use super::Implicit;
-use super::exchange::Exchange;
+use super::exchange::WaterExchange;
 use super::solve::Solved;
 use crate::clock::Stage;
 use crate::liquid::{Moved, TRACE, transport};
@@ -87,7 +87,7 @@ impl Implicit {
         travel: f64,
         velocity: &[f64],
         full: &[bool],
-        exchange: Option<Exchange>,
+        exchange: Option<WaterExchange>,
         dt: f64,
     ) {
         let begun = Instant::now();

@@ -2,9 +2,11 @@
 
 use super::Implicit;
 use crate::geometry::{Mesh, Rows};
-use crate::liquid::{Kept, carried_pressures, carried_region, carried_velocities, carried_volumes};
+use crate::liquid::{
+    FaceMap, remapped_pressures, remapped_region, remapped_velocities, remapped_volumes,
+};
 use crate::settings::LARGEST_CFL;
-use crate::system::{Edges, Links};
+use crate::system::{Edges, WallCouplings};
 use crate::water::Walls;
 
 /// Cells around the liquid that a mesh has: twice those that it comes to lie in within a step. The mesh is made anew where half of
@@ -21,7 +23,7 @@ impl Implicit {
         let wet_rows = self.wet_rows();
         let near =
             |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN / 2;
-        if !self.links.is_empty()
+        if !self.couplings.is_empty()
             && rows.gap == mesh.rows().gap
             && !near(wet_rows.start, mesh.range.start, 0)
             && !near(wet_rows.end, mesh.range.end, mesh.rows().len())
@@ -34,7 +36,7 @@ impl Implicit {
         let lattice = &self.setup.lattice;
         let mesh = match self.setup.gas {
             None => {
-                let region = carried_region(mesh, &wet, (&rows, &near), MARGIN);
+                let region = remapped_region(mesh, &wet, (&rows, &near), MARGIN);
                 Mesh::new(lattice, rows, near, region)
             }
             // Air may be closed off anywhere.
@@ -42,29 +44,29 @@ impl Implicit {
         };
         let old = std::mem::replace(&mut self.mesh, mesh);
         let (state, mesh) = (&mut self.state, &self.mesh);
-        state.volumes = carried_volumes(mesh, &old, &state.volumes);
+        state.volumes = remapped_volumes(mesh, &old, &state.volumes);
         if !state.air.of.is_empty() {
-            state.air.of = carried_volumes(mesh, &old, &state.air.of);
+            state.air.of = remapped_volumes(mesh, &old, &state.air.of);
         }
-        state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
-        state.flow.pressure = carried_pressures(mesh, &old, &state.flow.pressure);
+        state.flow.velocity = remapped_velocities(mesh, &old, &state.flow.velocity);
+        state.flow.pressure = remapped_pressures(mesh, &old, &state.flow.pressure);
         if let Some(wet) = &mut state.wet {
-            wet.water = carried_volumes(mesh, &old, &wet.water);
-            wet.soaked = carried_volumes(mesh, &old, &wet.soaked);
+            wet.water = remapped_volumes(mesh, &old, &wet.water);
+            wet.soaked = remapped_volumes(mesh, &old, &wet.soaked);
         }
-        let kept = match self.links.is_empty() {
-            true => Kept::default(),
-            false => Kept::new(mesh, &old),
+        let kept = match self.couplings.is_empty() {
+            true => FaceMap::default(),
+            false => FaceMap::new(mesh, &old),
         };
         self.find_walls(&kept);
     }
 
     /// Finds what the walls of the mesh do, but for faces that are `kept` from the one before.
-    pub(super) fn find_walls(&mut self, kept: &Kept) {
+    pub(super) fn find_walls(&mut self, kept: &FaceMap) {
         let (setup, mesh) = (&self.setup, &self.mesh);
         let water = setup.liquid.water.as_ref();
         self.walls = water.map(|_| Walls::new(&setup.lattice, mesh, &setup.take));
-        self.links = Links::new(&setup.channels(mesh), kept, &self.links);
+        self.couplings = WallCouplings::new(&setup.channels(mesh), kept, &self.couplings);
         self.edges = Edges::new(mesh, &setup.lattice, kept, &self.edges);
     }
 

@@ -20,7 +20,7 @@ fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
 
 /// The cells of a box of `size` with other `rows`, those in `range`, that the `wet` cells of `old` come to lie in, and those
 /// around them up to `margin`.
-pub(crate) fn carried_region(
+pub(crate) fn remapped_region(
     old: &Mesh,
     wet: &Region,
     (rows, range): (&Rows, &Range<usize>),
@@ -50,9 +50,9 @@ pub(crate) fn carried_region(
 
 /// The face of another mesh that each face of a mesh is, and whether it has the same surroundings there.
 #[derive(Default)]
-pub(crate) struct Kept(pub(crate) Vec<Option<(u32, bool)>>);
+pub(crate) struct FaceMap(pub(crate) Vec<Option<(u32, bool)>>);
 
-impl Kept {
+impl FaceMap {
     /// What faces of `new` are in `old`. Those beside the gap, the end of the rows or that of the region have other
     /// surroundings.
     pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
@@ -116,7 +116,7 @@ fn overlapping(new: &Mesh, old: &Mesh) -> Vec<Vec<(usize, f64)>> {
 }
 
 /// Volumes of `old` on `new`; what the last row of a gap held that is gone goes to the pores beside it.
-pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
+pub(crate) fn remapped_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
     let sum = |parts: &mut dyn Iterator<Item = (f64, f64)>| parts.map(|(part, of)| part * of).sum();
     let mut carried = of_pores(new, old, volumes, sum);
     if new.rows().gap == 0 && old.rows().gap > 0 {
@@ -135,7 +135,7 @@ pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f6
 }
 
 /// Pressures of `old` on `new`; that of a gap that is gone is gone with it.
-pub(crate) fn carried_pressures(new: &Mesh, old: &Mesh, pressure: &[f64]) -> Vec<f64> {
+pub(crate) fn remapped_pressures(new: &Mesh, old: &Mesh, pressure: &[f64]) -> Vec<f64> {
     of_pores(new, old, pressure, mean)
 }
 
@@ -191,9 +191,9 @@ fn outlets(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
         if !found.is_empty() {
             return found;
         }
-        let beside = front.iter().flat_map(|&pore| old.ways(pore));
+        let beside = front.iter().flat_map(|&pore| old.neighbours(pore));
         let next: Vec<usize> = beside
-            .map(|way| way.beside)
+            .map(|neighbour| neighbour.pore)
             .filter(|&pore| in_gap(pore))
             .collect();
         front = next.into_iter().filter(|&pore| seen.insert(pore)).collect();
@@ -223,7 +223,7 @@ fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
 }
 
 /// Values of the faces of `old`, velocities, on `new`.
-pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Vec<f64> {
+pub(crate) fn remapped_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Vec<f64> {
     let rows = overlapping(new, old);
     let value = |face: usize| {
         let f = new.faces[face];
@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn faces_near_the_end_of_a_mesh_are_not_kept() {
         let [whole, short] = [0, 4].map(|start| Mesh::column_from([12, 1], 2, start));
-        let kept = Kept::new(&whole, &short);
+        let kept = FaceMap::new(&whole, &short);
         let rows: Vec<usize> = (0..whole.faces.len())
             .filter(|&face| kept.whole(face).is_some())
             .map(|face| whole.row_of(whole.faces[face].low as usize))
@@ -261,13 +261,16 @@ mod tests {
     fn volumes_add_up_and_pressures_do_not() {
         let values = [7.0, 1.0, 3.0, 5.0, 9.0];
         let [three, two, none] = [3, 2, 0].map(|gap| Mesh::column([1, 1], gap));
-        assert_eq!(carried_volumes(&two, &three, &values), [7.0, 2.5, 6.5, 9.0]);
-        let pressures = carried_pressures(&two, &three, &values);
+        assert_eq!(
+            remapped_volumes(&two, &three, &values),
+            [7.0, 2.5, 6.5, 9.0]
+        );
+        let pressures = remapped_pressures(&two, &three, &values);
         let expected = [7.0, 5.0 / 3.0, 13.0 / 3.0, 9.0];
         for (pressure, expected) in pressures.iter().zip(expected) {
             assert!((pressure - expected).abs() < 1e-14, "{pressures:?}");
         }
-        assert_eq!(carried_volumes(&none, &three, &values), [11.5, 13.5]);
-        assert_eq!(carried_pressures(&none, &three, &values), [7.0, 9.0]);
+        assert_eq!(remapped_volumes(&none, &three, &values), [11.5, 13.5]);
+        assert_eq!(remapped_pressures(&none, &three, &values), [7.0, 9.0]);
     }
 }

@@ -16,7 +16,7 @@ const NEAR: f64 = 0.05 * SETTLED;
 const SETTLED: f64 = 2e-3;
 
 /// The viscosities that the flow of a step is sought with, pass by pass, for a liquid whose viscosity depends on the rate.
-pub(crate) struct Search<'a> {
+pub(crate) struct ViscosityIteration<'a> {
     pub(crate) liquid: &'a Liquid,
     /// What the law is multiplied by.
     pub(crate) factor: f64,
@@ -28,7 +28,7 @@ pub(crate) struct Search<'a> {
     response: f64,
 }
 
-impl<'a> Search<'a> {
+impl<'a> ViscosityIteration<'a> {
     /// One that begins with the viscosities `used`.
     pub(crate) fn new(liquid: &'a Liquid, factor: f64, slip: f64, used: Viscosities) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl<'a> Search<'a> {
 
     /// Takes in the `rates` and the dissipation of each pore of the flow that came of the viscosities used, and says whether
     /// that flow has them.
-    pub(crate) fn go_on(&mut self, rates: Rates, power: Vec<f64>) -> bool {
+    pub(crate) fn update(&mut self, rates: Rates, power: Vec<f64>) -> bool {
         let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
         let pass = Pass { used, rates, power };

@@ -1,8 +1,8 @@
 //! The hold of walls on one face beside them.
 
-/// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half. Kept in single precision.
+/// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half. FaceMap in single precision.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Link<T = f64> {
+pub(crate) struct WallCoupling<T = f64> {
     /// Area of walls over the distance to them, of the halves in the low and the high pore.
     pub(crate) friction: [T; 2],
     /// The same times the velocity of the walls along the face: what moves by itself, cells/s, and what moves with the
@@ -14,7 +14,7 @@ pub(crate) struct Link<T = f64> {
     pub(crate) area: T,
     pub(crate) height: T,
     /// Sum of 1/H^2 over the axes across the face.
-    pub(crate) narrowness: T,
+    pub(crate) inverse_width_squared: T,
     /// Whether the height of the gap is part of it.
     pub(crate) by_gap: bool,
     /// Whether there are walls beside it.
@@ -23,7 +23,7 @@ pub(crate) struct Link<T = f64> {
     pub(crate) body: u8,
 }
 
-impl Link {
+impl WallCoupling {
     /// Adds friction in a half, with a wall that moves so: by itself, and per closing speed.
     pub(super) fn add(&mut self, half: usize, friction: f64, [own, clamp]: [f64; 2]) {
         self.friction[half] += friction;
@@ -33,16 +33,16 @@ impl Link {
     }
 }
 
-impl<T: Copy> Link<T> {
+impl<T: Copy> WallCoupling<T> {
     /// The same in another precision.
-    pub(super) fn with<U>(self, of: impl Fn(T) -> U) -> Link<U> {
-        Link {
+    pub(super) fn with<U>(self, of: impl Fn(T) -> U) -> WallCoupling<U> {
+        WallCoupling {
             friction: self.friction.map(&of),
             sliding: self.sliding.map(|half| half.map(&of)),
             resistance: self.resistance.map(&of),
             area: of(self.area),
             height: of(self.height),
-            narrowness: of(self.narrowness),
+            inverse_width_squared: of(self.inverse_width_squared),
             by_gap: self.by_gap,
             walled: self.walled,
             body: self.body,

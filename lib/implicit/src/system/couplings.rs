@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
-use crate::liquid::Kept;
+use crate::liquid::FaceMap;
 
-use super::link::Link;
+use super::coupling::WallCoupling;
 
 /// Least effective distance over the open height of a column, so that friction stays finite.
 const LEAST: f64 = 0.1;
@@ -14,52 +14,60 @@ const NARROWEST: f64 = 0.85;
 
 /// The links of all faces of a mesh.
 #[derive(Clone, Default)]
-pub(crate) struct Links(Vec<Link<f32>>);
+pub(crate) struct WallCouplings(Vec<WallCoupling<f32>>);
 
-impl Links {
+impl WallCouplings {
     /// Whether there are none yet.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// The link of a face.
-    pub(crate) fn of(&self, face: usize) -> Link {
+    pub(crate) fn of(&self, face: usize) -> WallCoupling {
         self.0[face].with(f64::from)
     }
 
     /// Those of a mesh; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(channels: &Channels, kept: &Kept, old: &Self) -> Self {
+    pub(crate) fn new(channels: &Channels, kept: &FaceMap, old: &Self) -> Self {
         let mesh = channels.mesh;
         let (inner, clear) = (mesh.inner_faces(), mesh.clear_cells());
         let moving = channels.lattice.moving.is_some();
-        let link = |face: usize| {
+        let coupling = |face: usize| {
             let old = kept.whole(face).map(|face| old.0[face]);
-            if let Some(old) = old.filter(|link| !link.by_gap) {
+            if let Some(old) = old.filter(|coupling| !coupling.by_gap) {
                 return old;
             }
             let (clear, by_gap) = (mesh.is_clear(face, &clear), channels.by_gap(face));
             match inner[face] {
-                false => Link::default(),
+                false => WallCoupling::default(),
                 // It is measured before it is used.
-                true if moving && by_gap => Link {
+                true if moving && by_gap => WallCoupling {
                     by_gap,
                     walled: !clear,
-                    ..Link::default()
+                    ..WallCoupling::default()
                 },
-                true => channels.link(face, clear, by_gap),
+                true => channels.coupling(face, clear, by_gap),
             }
         };
-        Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
+        Self(
+            (0..mesh.faces.len())
+                .into_par_iter()
+                .map(coupling)
+                .collect(),
+        )
     }
 
     /// Finds anew the links of faces with liquid whose channels the gap's height is part of.
     pub(crate) fn measure(&mut self, channels: &Channels, fractions: &[f64]) {
-        self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
-            let mut ends = channels.mesh.faces[face].ends().into_iter();
-            if link.by_gap && ends.any(|pore| fractions[pore] > 0.0) {
-                *link = channels.link(face, !link.walled, true);
-            }
-        });
+        self.0
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(face, coupling)| {
+                let mut ends = channels.mesh.faces[face].ends().into_iter();
+                if coupling.by_gap && ends.any(|pore| fractions[pore] > 0.0) {
+                    *coupling = channels.coupling(face, !coupling.walled, true);
+                }
+            });
     }
 }
 
@@ -95,26 +103,26 @@ impl Channels<'_> {
     }
 
     /// The link of a face that is `clear` of walls or not, and `by_gap` or not.
-    fn link(&self, face: usize, clear: bool, by_gap: bool) -> Link<f32> {
-        let mut link = Link::<f64> {
+    fn coupling(&self, face: usize, clear: bool, by_gap: bool) -> WallCoupling<f32> {
+        let mut coupling = WallCoupling::<f64> {
             by_gap,
-            ..Link::default()
+            ..WallCoupling::default()
         };
         let f = self.mesh.faces[face];
         let places = f.ends().map(|pore| self.mesh.place(self.mesh.cell(pore)));
         let axis = usize::from(f.axis);
         if self.influence_length.is_infinite() {
-            return link.with(|value| value as f32);
+            return coupling.with(|value| value as f32);
         }
         for t in others(axis) {
             if self.lattice.flat && t == 2 {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column((face, clear), places, (t, r), &mut link);
+                self.column((face, clear), places, (t, r), &mut coupling);
             }
         }
-        link.with(|value| value as f32)
+        coupling.with(|value| value as f32)
     }
 
     /// Adds the walls at both ends along `t` of column `r` of a face between cells at two places.
@@ -123,7 +131,7 @@ impl Channels<'_> {
         (face, clear): (usize, bool),
         places: [[usize; 3]; 2],
         (t, r): (usize, usize),
-        link: &mut Link,
+        coupling: &mut WallCoupling,
     ) {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
@@ -153,7 +161,7 @@ impl Channels<'_> {
             })
         });
         let walled = both.as_flattened().iter().any(|&code| is_wall(code));
-        link.walled |= walled;
+        coupling.walled |= walled;
         for (half, cell) in cells.into_iter().enumerate() {
             let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
@@ -161,7 +169,7 @@ impl Channels<'_> {
             let width = |a: usize| self.width(place, a) / edges[t];
             let part = 0.5 * edges[axis] * edges[across] / k as f64;
             let along = width(t);
-            link.narrowness += part / (along * along * edges[t] * edges[t]);
+            coupling.inverse_width_squared += part / (along * along * edges[t] * edges[t]);
             if !walled {
                 continue;
             }
@@ -174,11 +182,11 @@ impl Channels<'_> {
             for (code, (_, up)) in both[1 - half].into_iter().zip(corner) {
                 let open = ends[usize::from(up)] == OPEN;
                 if let Some(next) = mesh
-                    .neighbour(cell, t, up)
+                    .next_cell(cell, t, up)
                     .filter(|_| open && is_wall(code))
                 {
                     let apart = 0.5 * (column.height * edges[t] + mesh.cell_edge(next, t));
-                    link.add(half, part / apart, self.sliding(code, face, axis));
+                    coupling.add(half, part / apart, self.sliding(code, face, axis));
                 }
             }
             if !ends.iter().any(|&code| is_wall(code)) {
@@ -200,11 +208,11 @@ impl Channels<'_> {
                     false => (lowest * mesh.reentrant(at, [t, across], up)).exp(),
                 };
                 let friction = factor * part / (distance + self.influence_length);
-                link.add(half, friction, self.sliding(code, face, axis));
-                link.area += part;
+                coupling.add(half, friction, self.sliding(code, face, axis));
+                coupling.area += part;
                 let shared = if between { 0.5 } else { 1.0 };
-                link.height += part * shared * column.height * edges[t];
-                link.body = code;
+                coupling.height += part * shared * column.height * edges[t];
+                coupling.body = code;
             }
         }
     }

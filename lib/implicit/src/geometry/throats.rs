@@ -11,7 +11,7 @@ const WIDENS: f64 = 3.0;
 /// Perimeter over area, 1/cells, of the passage at a pore by the two narrowest of its widths that liquid spans, 2/d each:
 /// 4/d in a tube, 2/d in a slit. Walls too far apart have none, nor has liquid that lies on one wall alone. `wet` says which
 /// pores are full.
-pub(crate) fn narrowness(
+pub(crate) fn perimeter_over_area(
     lattice: &Lattice,
     chords: &Chords,
     mesh: &Mesh,
@@ -126,16 +126,16 @@ impl View<'_> {
         for beside in others(axis).into_iter().filter(|&b| lengths[b] < longest) {
             for up in [false, true] {
                 let (mut at, mut before) = (place, lengths[axis]);
-                let mut way = 0.5 * self.thickness(at, beside);
+                let mut offset = 0.5 * self.thickness(at, beside);
                 while let Some(next) = self.next(at, beside, up) {
                     let length = self.chords.length(self.lattice, next, axis, self.gap);
                     if length > WIDENS * before {
                         break;
                     }
-                    if way <= 0.5 * length {
+                    if offset <= 0.5 * length {
                         widest = widest.max(length);
                     }
-                    way += self.thickness(next, beside);
+                    offset += self.thickness(next, beside);
                     (at, before) = (next, length);
                 }
             }
