@@ -3,7 +3,7 @@
 use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 
 use crate::settings::Settings;
-use crate::step::THICKENS;
+use crate::step::LN_VISCOSITY_STEP;
 
 /// Speed of the liquid that sets the step over that of the body that drives it, averaged over a run: 1.6 to 1.8 where wood
 /// closes on a slab.
@@ -64,9 +64,10 @@ impl Plan {
         let duration = cure
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
-        let cured = cure.map_or(0.0, |cure| cure.change(duration) / THICKENS);
-        let dried = (scene.liquid.water.as_ref())
-            .map_or(0.0, |water| water.factor(water.least()).ln() / THICKENS);
+        let cured = cure.map_or(0.0, |cure| cure.change(duration) / LN_VISCOSITY_STEP);
+        let dried = (scene.liquid.water.as_ref()).map_or(0.0, |water| {
+            water.factor(water.least()).ln() / LN_VISCOSITY_STEP
+        });
         let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);
         let voxels: f64 = blocks
             .map(|block| block.dims().iter().map(|&n| n as f64).product::<f64>())

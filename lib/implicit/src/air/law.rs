@@ -7,7 +7,7 @@ use crate::settings::MISSED;
 
 /// Largest ratio of the volumes that one tangent and the next are taken at, so that Newton's steps of V = m/p end from either side:
 /// larger ones overshoot, smaller ones take more passes.
-const STEEPEST: f64 = 4.0;
+const MAX_VOLUME_RATIO: f64 = 4.0;
 
 /// The air of a run. Pressures are over a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub(crate) struct Gas {
     pub(crate) leak_time: f64,
 }
 
-/// A pocket's law near one volume: V_end = `volume` - `yielding` (p - `pressure`).
+/// A pocket's law near one volume: V_end = `volume` - `compliance` (p - `pressure`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Tangent {
     /// Volume, cells.
@@ -28,14 +28,17 @@ pub(crate) struct Tangent {
     /// Pressure above that outside.
     pub(crate) pressure: f64,
     /// Cells per unit of pressure.
-    pub(crate) yielding: f64,
+    pub(crate) compliance: f64,
 }
 
 impl Tangent {
     /// The volume at a pressure above that outside.
     pub(crate) fn volume_at(&self, pressure: f64) -> f64 {
-        let volume = self.volume - self.yielding * (pressure - self.pressure);
-        volume.clamp(self.volume / STEEPEST, self.volume * STEEPEST)
+        let volume = self.volume - self.compliance * (pressure - self.pressure);
+        volume.clamp(
+            self.volume / MAX_VOLUME_RATIO,
+            self.volume * MAX_VOLUME_RATIO,
+        )
     }
 }
 
@@ -53,31 +56,31 @@ impl Gas {
     /// The law of `mass`, pressure times volume at the start of a step of `dt` (s), about a volume (cells) at its end:
     /// p V = m - (exp(dt/t_leak) - 1) (p - p_0) V, exact where the volume stays.
     pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
-        let leak = self.leak(dt);
+        let leak = self.leak_factor(dt);
         // Below what passes may miss: a void that liquid opens without air has no tangent in a vacuum.
         let thinnest = MISSED * self.outside;
         let absolute = (mass / volume + leak * self.outside) / (1.0 + leak);
         Tangent {
             volume,
             pressure: absolute.clamp(thinnest, self.most) - self.outside,
-            yielding: volume * (1.0 + leak) / (mass / volume).max(thinnest),
+            compliance: volume * (1.0 + leak) / (mass / volume).max(thinnest),
         }
     }
 
     /// Whether a pressure above that outside is that of the volume which its tangent gives it, but for what rounding may move of a
     /// cell: a void without air collapses to nothing at any pressure of the liquid.
-    pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
+    pub(crate) fn obeys_law(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
-        let off = right.yielding * (pressure - right.pressure).abs();
+        let off = right.compliance * (pressure - right.pressure).abs();
         off <= (MISSED * right.volume).max(DRIFT)
     }
 
     /// What of `mass` leaks out in a step in which it comes to a volume and to a pressure above that outside.
     pub(crate) fn leaked(&self, mass: f64, volume: f64, pressure: f64, dt: f64) -> f64 {
-        (self.leak(dt) * pressure * volume).min(mass)
+        (self.leak_factor(dt) * pressure * volume).min(mass)
     }
 
-    fn leak(&self, dt: f64) -> f64 {
+    fn leak_factor(&self, dt: f64) -> f64 {
         /// What leaks all: larger factors would swallow the rest of a sum.
         const ALL: f64 = 1e9;
         (dt / self.leak_time).exp_m1().min(ALL)
@@ -112,11 +115,11 @@ mod tests {
                 let Tangent {
                     volume,
                     pressure,
-                    yielding,
+                    compliance,
                 } = tangent;
-                let known = volume + yielding * pressure - first + dt * push / resistance;
-                let p = known / (yielding + dt / resistance);
-                if gas.agrees(mass, &tangent, p, dt) {
+                let known = volume + compliance * pressure - first + dt * push / resistance;
+                let p = known / (compliance + dt / resistance);
+                if gas.obeys_law(mass, &tangent, p, dt) {
                     break p;
                 }
                 tangent = gas.tangent(mass, tangent.volume_at(p), dt);

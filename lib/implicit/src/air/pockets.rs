@@ -21,7 +21,7 @@ pub(crate) struct Air {
     pub(crate) pockets: Vec<Pocket>,
     pub(crate) dry: Vec<Pocket>,
     /// Absolute pressure times volume in each pore; in those of pockets at the start of the step.
-    pub(crate) held: Vec<f64>,
+    pub(crate) mass: Vec<f64>,
     /// Pores whose air nothing closes off.
     outside: Vec<u32>,
     /// Air that full pores have closed in, with none beside.
@@ -36,21 +36,21 @@ impl Air {
         has_pressure: impl Fn(usize) -> bool,
         full: impl Fn(usize) -> bool,
         void: &[f64],
-        held: &[f64],
+        mass: &[f64],
         along_y: bool,
     ) -> Self {
         let mut air = Self {
             pockets: Vec::new(),
             dry: Vec::new(),
-            held: held.to_vec(),
+            mass: mass.to_vec(),
             outside: Vec::new(),
             covered: 0.0,
         };
-        air.uncover(mesh, &full, void);
+        air.release_covered(mesh, &full, void);
         let reaches_out = |pore: usize| {
             let row = mesh.row_of(pore);
             let last = row == 0 || row + 1 == mesh.rows().len();
-            mesh.is_beyond(mesh.cell(pore)) || along_y && last
+            mesh.is_ghost(mesh.cell(pore)) || along_y && last
         };
         let mut found = vec![false; mesh.pores.len()];
         for first in 0..mesh.pores.len() {
@@ -77,7 +77,7 @@ impl Air {
         pores.sort_unstable();
         let sum = |of: &[f64]| pores.iter().map(|&pore| of[pore as usize]).sum::<f64>();
         let pocket = Pocket {
-            mass: sum(&self.held),
+            mass: sum(&self.mass),
             volume: sum(void),
             tangent: Tangent::default(),
             pores,
@@ -89,9 +89,9 @@ impl Air {
     }
 
     /// Gives what full pores hold to those beside them that are not, by their empty volume.
-    fn uncover(&mut self, mesh: &Mesh, full: &impl Fn(usize) -> bool, void: &[f64]) {
+    fn release_covered(&mut self, mesh: &Mesh, full: &impl Fn(usize) -> bool, void: &[f64]) {
         for pore in (0..mesh.pores.len()).filter(|&pore| full(pore)) {
-            if self.held[pore] == 0.0 {
+            if self.mass[pore] == 0.0 {
                 continue;
             }
             let open: Vec<usize> = mesh
@@ -101,22 +101,22 @@ impl Air {
                 .collect();
             let all: f64 = open.iter().map(|&beside| void[beside]).sum();
             if all == 0.0 {
-                self.covered += self.held[pore];
+                self.covered += self.mass[pore];
                 continue;
             }
-            let held = std::mem::take(&mut self.held[pore]);
+            let mass = std::mem::take(&mut self.mass[pore]);
             for beside in open {
-                self.held[beside] += held * void[beside] / all;
+                self.mass[beside] += mass * void[beside] / all;
             }
         }
     }
 
     /// Whether the pressures of pores are those of the volumes that pockets come to in a step of `dt` (s); where one is not,
     /// pockets have tangents at these volumes.
-    pub(crate) fn settle(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
+    pub(crate) fn update_tangents(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
         let pressure = |pocket: &Pocket| pressures[pocket.pores[0] as usize];
         let agrees =
-            |pocket: &Pocket| gas.agrees(pocket.mass, &pocket.tangent, pressure(pocket), dt);
+            |pocket: &Pocket| gas.obeys_law(pocket.mass, &pocket.tangent, pressure(pocket), dt);
         if self.pockets.iter().all(agrees) {
             return true;
         }
@@ -129,7 +129,7 @@ impl Air {
 
     /// The air in each pore after the step, in which the empty volumes came to `void`: that of a pocket is alike
     /// in all of it, that outside has the pressure `outside`.
-    pub(crate) fn after(mut self, void: &[f64], outside: f64) -> Vec<f64> {
+    pub(crate) fn mass_after_step(mut self, void: &[f64], outside: f64) -> Vec<f64> {
         for pocket in self.pockets.iter().chain(&self.dry) {
             let all: f64 = pocket.pores.iter().map(|&pore| void[pore as usize]).sum();
             for &pore in &pocket.pores {
@@ -137,12 +137,12 @@ impl Air {
                     true => void[pore as usize] / all,
                     false => 1.0 / pocket.pores.len() as f64,
                 };
-                self.held[pore as usize] = pocket.mass * share;
+                self.mass[pore as usize] = pocket.mass * share;
             }
         }
         for &pore in &self.outside {
-            self.held[pore as usize] = outside * void[pore as usize];
+            self.mass[pore as usize] = outside * void[pore as usize];
         }
-        self.held
+        self.mass
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
             continue;
         };
         for block in &body.blocks {
-            let Some([from, to]) = sides(block) else {
+            let Some([from, to]) = solid_extent(block) else {
                 continue;
             };
             let [bottom, top] = frames.gap;
@@ -106,7 +106,7 @@ impl Frames {
                 moving,
             });
         };
-        let solid = scene.bodies[body].blocks.iter().filter_map(sides);
+        let solid = scene.bodies[body].blocks.iter().filter_map(solid_extent);
         let (bottom, top) = solid.fold((f64::INFINITY, f64::NEG_INFINITY), |so_far, [from, to]| {
             (so_far.0.min(from), so_far.1.max(to))
         });
@@ -114,7 +114,7 @@ impl Frames {
         // Where another body ends on the way, the gap ends.
         let others = scene.bodies.iter().enumerate().filter(|at| at.0 != body);
         let blocks = others.flat_map(|(_, body)| &body.blocks);
-        let ends = blocks.filter_map(sides).flatten();
+        let ends = blocks.filter_map(solid_extent).flatten();
         let gap = match down {
             true => [
                 ends.filter(|y| *y <= bottom + tight).fold(low, f64::max),
@@ -141,7 +141,7 @@ impl Frames {
 }
 
 /// y of the outer sides of the first and the last layer of a block that holds solid voxels.
-fn sides(block: &VoxelBlock) -> Option<[f64; 2]> {
+fn solid_extent(block: &VoxelBlock) -> Option<[f64; 2]> {
     let [_, ny, nz] = block.dims();
     let holds = |j: &usize| (0..nz).any(|k| block.row(*j, k).iter().any(|&word| word != 0));
     let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];

@@ -185,7 +185,7 @@ impl Lattice {
     }
 
     /// Velocity of a body along y over the closing speed.
-    pub(crate) fn speed_of(&self, body: usize) -> f64 {
+    pub(crate) fn body_speed(&self, body: usize) -> f64 {
         match self.moving {
             Some(moving) if moving.body == body && moving.down => -1.0,
             Some(moving) if moving.body == body => 1.0,
@@ -194,7 +194,7 @@ impl Lattice {
     }
 
     /// Velocity of the grid along y over the closing speed where it takes part in the body above's by `share`.
-    pub(crate) fn speed_at(&self, share: f64) -> f64 {
+    pub(crate) fn grid_speed(&self, share: f64) -> f64 {
         match self.moving {
             Some(Moving { down: true, .. }) => -share,
             Some(_) => 1.0 - share,
@@ -203,7 +203,7 @@ impl Lattice {
     }
 
     /// Voxels along x and z.
-    pub(crate) fn across(&self) -> [usize; 2] {
+    pub(crate) fn layer_size(&self) -> [usize; 2] {
         self.cells.map(|n| n * self.k)
     }
 }

@@ -47,7 +47,7 @@ impl Mesh {
 
     /// Height of the lowest row at a pore or beside it, a cell at most: the film in a gap that closes knows of edges no farther
     /// than it is high.
-    pub(crate) fn lowest(&self, pore: usize) -> f64 {
+    pub(crate) fn lowest_row(&self, pore: usize) -> f64 {
         self.measures.heights[self.row_of(pore)][1]
     }
 
@@ -66,7 +66,7 @@ impl Mesh {
 
     /// Volume of a pore, cells.
     pub(crate) fn volume(&self, pore: usize) -> f64 {
-        self.part(pore) * self.height(pore)
+        self.cell_fraction(pore) * self.height(pore)
     }
 
     /// The same with a gap of another height.
@@ -75,11 +75,11 @@ impl Mesh {
             height,
             ..*self.rows()
         };
-        self.part(pore) * rows.height_of(self.row_of(pore))
+        self.cell_fraction(pore) * rows.height_of(self.row_of(pore))
     }
 
     /// Part of its cell that a pore fills.
-    fn part(&self, pore: usize) -> f64 {
+    fn cell_fraction(&self, pore: usize) -> f64 {
         let Pore { voxels, .. } = self.pores[pore];
         f64::from(voxels.count_ones()) / (self.k * self.k * self.k) as f64
     }
@@ -95,7 +95,7 @@ impl Mesh {
     }
 
     /// Part of the area of all faces of a pore on one side that one of them has.
-    pub(crate) fn share(&self, face: usize, pore: usize, axis: usize, up: bool) -> f64 {
+    pub(crate) fn area_share(&self, face: usize, pore: usize, axis: usize, up: bool) -> f64 {
         let side = self.faces_at(pore, axis, up);
         match side.len() {
             1 => 1.0,
@@ -104,8 +104,8 @@ impl Mesh {
     }
 
     /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.
-    pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
+    pub(crate) fn grid_velocity(&self, lattice: &Lattice, face: usize) -> f64 {
         let row = self.row_of(self.faces[face].ends()[1]);
-        lattice.speed_at(self.rows().share(row))
+        lattice.grid_speed(self.rows().closing_share(row))
     }
 }

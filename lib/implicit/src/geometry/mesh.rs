@@ -63,7 +63,7 @@ pub(crate) struct Mesh {
     /// Cells along x, rows, z, with those beyond open sides.
     pub(crate) size: [usize; 3],
     /// Cells beyond the low sides.
-    pub(crate) beyond: [usize; 3],
+    pub(crate) ghost_layers: [usize; 3],
     pub(super) measures: Measures,
     /// Rows of the grid that are here.
     pub(crate) range: Range<usize>,
@@ -81,20 +81,24 @@ pub(crate) struct Mesh {
     /// First face of each cell towards x, y, z, and one more.
     face_start: Vec<u32>,
     /// Faces of each pore on its low and its high side along x, y, z, and where those of each side begin.
-    sides: Vec<u32>,
-    side_start: Vec<u32>,
+    pore_faces: Vec<u32>,
+    pore_face_start: Vec<u32>,
 }
 
 impl Mesh {
     /// The box of cells of the rows in `range`.
     pub(crate) fn size_of(lattice: &Lattice, range: &Range<usize>) -> [usize; 3] {
-        let beyond = Self::beyond_of(lattice);
+        let ghost_layers = Self::ghost_layers_of(lattice);
         let [nx, nz] = lattice.cells;
-        [nx + 2 * beyond[0], range.len(), nz + 2 * beyond[2]]
+        [
+            nx + 2 * ghost_layers[0],
+            range.len(),
+            nz + 2 * ghost_layers[2],
+        ]
     }
 
     /// Cells beyond the low sides.
-    fn beyond_of(lattice: &Lattice) -> [usize; 3] {
+    fn ghost_layers_of(lattice: &Lattice) -> [usize; 3] {
         let open_side = |a: usize| usize::from(lattice.boundary[a] == Boundary::Open);
         [open_side(0), 0, open_side(2)]
     }
@@ -107,13 +111,13 @@ impl Mesh {
 
     /// The mesh of a region of the rows in `range`.
     pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>, region: Region) -> Self {
-        let beyond = Self::beyond_of(lattice);
+        let ghost_layers = Self::ghost_layers_of(lattice);
         let size = Self::size_of(lattice, &range);
         let cells: usize = size.iter().product();
         let mut mesh = Self {
             k: lattice.k,
             size,
-            beyond,
+            ghost_layers,
             measures: Measures::new(rows),
             range,
             region,
@@ -124,8 +128,8 @@ impl Mesh {
             at_sides: Vec::with_capacity(cells),
             pore_start: Vec::with_capacity(cells + 1),
             face_start: Vec::with_capacity(3 * cells + 1),
-            sides: Vec::new(),
-            side_start: Vec::new(),
+            pore_faces: Vec::new(),
+            pore_face_start: Vec::new(),
         };
         let k3 = mesh.k.pow(3);
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
@@ -157,21 +161,21 @@ impl Mesh {
             }
         }
         mesh.face_start.push(mesh.faces.len() as u32);
-        mesh.list_sides();
+        mesh.list_pore_faces();
         mesh.pores.shrink_to_fit();
         mesh.faces.shrink_to_fit();
         mesh
     }
 
     /// Lists the faces of each pore.
-    fn list_sides(&mut self) {
-        self.sides.reserve_exact(2 * self.faces.len());
-        self.side_start.reserve_exact(6 * self.pores.len() + 1);
+    fn list_pore_faces(&mut self) {
+        self.pore_faces.reserve_exact(2 * self.faces.len());
+        self.pore_face_start.reserve_exact(6 * self.pores.len() + 1);
         for pore in 0..self.pores.len() {
             let cell = self.pores[pore].cell as usize;
             for axis in 0..3 {
                 for up in [false, true] {
-                    self.side_start.push(self.sides.len() as u32);
+                    self.pore_face_start.push(self.pore_faces.len() as u32);
                     let range = match up {
                         true => self.faces_of(cell, axis),
                         false => (self.next_cell(cell, axis, false))
@@ -180,13 +184,13 @@ impl Mesh {
                     for face in range {
                         let f = self.faces[face];
                         if (if up { f.low } else { f.high }) as usize == pore {
-                            self.sides.push(face as u32);
+                            self.pore_faces.push(face as u32);
                         }
                     }
                 }
             }
         }
-        self.side_start.push(self.sides.len() as u32);
+        self.pore_face_start.push(self.pore_faces.len() as u32);
     }
 
     /// Adds the faces between the pores of two cells.
@@ -289,8 +293,8 @@ impl Mesh {
         up: bool,
     ) -> impl ExactSizeIterator<Item = usize> + Clone {
         let at = 6 * pore + 2 * axis + usize::from(up);
-        let range = self.side_start[at] as usize..self.side_start[at + 1] as usize;
-        self.sides[range].iter().map(|&face| face as usize)
+        let range = self.pore_face_start[at] as usize..self.pore_face_start[at + 1] as usize;
+        self.pore_faces[range].iter().map(|&face| face as usize)
     }
 
     /// The faces of a pore, along x, y, z, on its low side first.
@@ -332,7 +336,7 @@ impl Mesh {
     }
 
     /// Whether a face is in the gap or beside it.
-    pub(crate) fn is_by_gap(&self, face: usize) -> bool {
+    pub(crate) fn touches_gap(&self, face: usize) -> bool {
         let [low, high] = self.faces[face].ends().map(|pore| self.row_of(pore));
         let rows = self.rows();
         let gap = rows.below..rows.below + rows.gap + 1;
@@ -340,8 +344,9 @@ impl Mesh {
     }
 
     /// The pore of a cell that holds a voxel.
-    pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
-        self.pores_of(cell).find(|&pore| self.holds(pore, voxel))
+    pub(crate) fn pore_at(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
+        self.pores_of(cell)
+            .find(|&pore| self.has_voxel(pore, voxel))
     }
 
     /// The face between two pores along an axis.
@@ -350,13 +355,13 @@ impl Mesh {
     }
 
     /// Whether a cell lies beyond an open side.
-    pub(crate) fn is_beyond(&self, cell: usize) -> bool {
+    pub(crate) fn is_ghost(&self, cell: usize) -> bool {
         if !self.boundary.contains(&Boundary::Open) {
             return false;
         }
         let place = self.place(cell);
         let across =
-            |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
+            |a: usize| self.ghost_layers[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
         let row = place[1] + self.range.start;
         let along =
             self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows().len());

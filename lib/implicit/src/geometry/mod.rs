@@ -11,11 +11,11 @@ mod split;
 mod throats;
 mod voxels;
 
-pub(crate) use chords::{Chords, Place};
+pub(crate) use chords::{Chords, VoxelPlace};
 pub use lattice::check;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, Neighbour, others};
 pub(crate) use region::Region;
 pub(crate) use rows::{DRIFT, RowKind, Rows};
 pub(crate) use throats::perimeter_over_area;
-pub(crate) use voxels::STEPS_SEEN;
+pub(crate) use voxels::STEP_REACH;

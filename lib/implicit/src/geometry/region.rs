@@ -18,7 +18,7 @@ impl Region {
         }
     }
 
-    pub(crate) fn holds(&self, cell: usize) -> bool {
+    pub(crate) fn contains(&self, cell: usize) -> bool {
         self.cells[cell]
     }
 
@@ -103,12 +103,16 @@ impl Mesh {
     /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
     pub(crate) fn inner_faces(&self) -> Vec<bool> {
         let inner = self.region.inner(self.periodic());
-        let holds = |face: &Face| face.ends().iter().any(|&pore| inner.holds(self.cell(pore)));
+        let holds = |face: &Face| {
+            face.ends()
+                .iter()
+                .any(|&pore| inner.contains(self.cell(pore)))
+        };
         self.faces.iter().map(holds).collect()
     }
 
     /// Cells that are open, as are all of their neighbours: no wall is near.
-    pub(crate) fn clear_cells(&self) -> Region {
+    pub(crate) fn wall_free_cells(&self) -> Region {
         let mut open = Region::new(self.size, false);
         let whole = (1_u32 << self.k.pow(3)) - 1;
         for pore in &self.pores {
@@ -120,8 +124,8 @@ impl Mesh {
     }
 
     /// Whether both cells of a face are among those.
-    pub(crate) fn is_clear(&self, face: usize, clear: &Region) -> bool {
-        (self.faces[face].ends().iter()).all(|&pore| clear.holds(self.cell(pore)))
+    pub(crate) fn is_wall_free(&self, face: usize, clear: &Region) -> bool {
+        (self.faces[face].ends().iter()).all(|&pore| clear.contains(self.cell(pore)))
     }
 }
 
@@ -131,7 +135,7 @@ mod tests {
 
     fn cells(region: &Region) -> Vec<usize> {
         (0..region.cells.len())
-            .filter(|&cell| region.holds(cell))
+            .filter(|&cell| region.contains(cell))
             .collect()
     }
 

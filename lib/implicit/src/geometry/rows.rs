@@ -67,7 +67,7 @@ impl Rows {
     }
 
     /// Part of the closing speed by which the low side of a row moves against the body below: 0 there, 1 at the body above.
-    pub(crate) fn share(&self, row: usize) -> f64 {
+    pub(crate) fn closing_share(&self, row: usize) -> f64 {
         match self.kind(row) {
             RowKind::Below => 0.0,
             RowKind::Gap => (row - self.below) as f64 / self.gap as f64,
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(low, [-3.0, -2.0, -1.0, 0.0, third, 2.0 * third, 2.5, 3.5]);
         assert_eq!(rows.height_of(4), third);
         assert_eq!(
-            [2, 3, 5, 6].map(|row| rows.share(row)),
+            [2, 3, 5, 6].map(|row| rows.closing_share(row)),
             [0.0, 0.0, 2.0 / 3.0, 1.0]
         );
         assert_eq!(Rows::of_gap(3, 2, 3.0 + 1e-9).gap, 3);

@@ -1,12 +1,12 @@
 //! How narrow the passage is that a pore lies in: perimeter over area of the section that a meniscus spans.
 
-use super::chords::{Chords, LONGEST, Place};
+use super::chords::{Chords, LONGEST_CHORD, VoxelPlace};
 use super::lattice::{Lattice, OPEN};
 use super::mesh::{Mesh, others};
 
 /// Most that a chord grows by from one voxel to the next within a passage: those of a disc grow by less, where a lumen
 /// opens into the bond line they grow by more.
-const WIDENS: f64 = 3.0;
+const MAX_WIDENING: f64 = 3.0;
 
 /// Perimeter over area, 1/cells, of the passage at a pore by the two narrowest of its widths that liquid spans, 2/d each:
 /// 4/d in a tube, 2/d in a slit. Walls too far apart have none, nor has liquid that lies on one wall alone. `wet` says which
@@ -18,7 +18,7 @@ pub(crate) fn perimeter_over_area(
     pore: usize,
     wet: &impl Fn(usize) -> bool,
 ) -> f64 {
-    let view = View {
+    let view = ThroatView {
         lattice,
         chords,
         mesh,
@@ -27,12 +27,12 @@ pub(crate) fn perimeter_over_area(
     let count = f64::from(mesh.pores[pore].voxels.count_ones());
     let each = mesh
         .voxels(pore)
-        .map(|voxel| view.at(mesh.cell(pore), voxel, wet));
+        .map(|voxel| view.at_voxel(mesh.cell(pore), voxel, wet));
     mesh.k as f64 * each.sum::<f64>() / count
 }
 
 /// Voxels and chords with a gap of so many voxels.
-struct View<'a> {
+struct ThroatView<'a> {
     lattice: &'a Lattice,
     chords: &'a Chords,
     mesh: &'a Mesh,
@@ -42,16 +42,16 @@ struct View<'a> {
 /// A voxel of a cell.
 type Voxel = (usize, [usize; 3]);
 
-impl View<'_> {
+impl ThroatView<'_> {
     /// At a voxel, 1/voxels. In plane strain the passage is as deep as can be. A width is a voxel at least: no image shows less,
     /// and a gap that closes would pull without limit.
-    fn at(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
+    fn at_voxel(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
         let place = self.mesh.place(cell);
         let Some(place) = self.mesh.lattice_place(self.lattice, place, voxel) else {
             return 0.0;
         };
         let axes = if self.lattice.flat { 2 } else { 3 };
-        let far = f64::from(LONGEST);
+        let far = f64::from(LONGEST_CHORD);
         let lengths = [0, 1, 2].map(|axis| match axis < axes {
             true => self.chords.length(self.lattice, place, axis, self.gap),
             false => far,
@@ -59,13 +59,13 @@ impl View<'_> {
         let mut widths: Vec<(f64, usize)> = (0..axes)
             .map(|axis| match self.lattice.flat {
                 true => (lengths[axis], axis),
-                false => (self.width(place, axis, &lengths), axis),
+                false => (self.throat_width(place, axis, &lengths), axis),
             })
             .filter(|width| width.0 < far)
             .collect();
         widths.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         (widths.iter())
-            .filter(|&&(width, axis)| self.spanned((cell, voxel), axis, axes, width, wet))
+            .filter(|&&(width, axis)| self.is_spanned((cell, voxel), axis, axes, width, wet))
             .take(axes - 1)
             .map(|width| 2.0 / width.0.max(1.0))
             .sum()
@@ -73,7 +73,7 @@ impl View<'_> {
 
     /// Whether liquid spans the chord along an axis through a voxel, wet at both ends and in its middle, or the same chord no
     /// farther off along another axis than it is long: no meniscus is deeper.
-    fn spanned(
+    fn is_spanned(
         &self,
         voxel: Voxel,
         axis: usize,
@@ -83,7 +83,7 @@ impl View<'_> {
     ) -> bool {
         let step = |(cell, voxel): Voxel, axis: usize, up: bool| {
             let (cell, voxel) = self.mesh.next_voxel(cell, voxel, axis, up)?;
-            self.mesh.pore_with(cell, voxel).map(|_| (cell, voxel))
+            self.mesh.pore_at(cell, voxel).map(|_| (cell, voxel))
         };
         let line = |up: bool| {
             let most = length as usize;
@@ -97,7 +97,7 @@ impl View<'_> {
             .collect();
         let last = chord.len() - 1;
         let places = [0, last / 2, last.div_ceil(2), last].map(|at| chord[at]);
-        let is_wet = |&(cell, voxel): &Voxel| self.mesh.pore_with(cell, voxel).is_some_and(wet);
+        let is_wet = |&(cell, voxel): &Voxel| self.mesh.pore_at(cell, voxel).is_some_and(wet);
         (0..axes).filter(|&a| a != axis).any(|a| {
             [false, true].into_iter().any(|up| {
                 let mut places = Some(places);
@@ -120,16 +120,16 @@ impl View<'_> {
     /// Width of the passage along an axis: the longest chord beside the one through a voxel that reaches as far to both sides as
     /// the voxel lies off it, which is that through the middle of a round section. What lies along the passage does not
     /// count.
-    fn width(&self, place: Place, axis: usize, lengths: &[f64; 3]) -> f64 {
+    fn throat_width(&self, place: VoxelPlace, axis: usize, lengths: &[f64; 3]) -> f64 {
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let mut widest = lengths[axis];
         for beside in others(axis).into_iter().filter(|&b| lengths[b] < longest) {
             for up in [false, true] {
                 let (mut at, mut before) = (place, lengths[axis]);
                 let mut offset = 0.5 * self.thickness(at, beside);
-                while let Some(next) = self.next(at, beside, up) {
+                while let Some(next) = self.next_place(at, beside, up) {
                     let length = self.chords.length(self.lattice, next, axis, self.gap);
-                    if length > WIDENS * before {
+                    if length > MAX_WIDENING * before {
                         break;
                     }
                     if offset <= 0.5 * length {
@@ -144,49 +144,49 @@ impl View<'_> {
     }
 
     /// Voxels that a place is thick along an axis: the gap is one place at each x and z.
-    fn thickness(&self, place: Place, axis: usize) -> f64 {
+    fn thickness(&self, place: VoxelPlace, axis: usize) -> f64 {
         match place {
-            Place::Gap(_) if axis == 1 => self.gap,
+            VoxelPlace::Gap(_) if axis == 1 => self.gap,
             _ => 1.0,
         }
     }
 
     /// The open place beside one along an axis.
-    fn next(&self, place: Place, axis: usize, up: bool) -> Option<Place> {
-        let [nx, nz] = self.lattice.across();
+    fn next_place(&self, place: VoxelPlace, axis: usize, up: bool) -> Option<VoxelPlace> {
+        let [nx, nz] = self.lattice.layer_size();
         let shifted = |at: usize| {
             let (i, n, stride) = match axis {
                 0 => (at % nx, nx, 1),
                 _ => (at / nx, nz, nx),
             };
-            let turns = self.lattice.boundary[axis] == physics::Boundary::Periodic;
+            let periodic = self.lattice.boundary[axis] == physics::Boundary::Periodic;
             match (up, i) {
                 (true, i) if i + 1 < n => Some(at + stride),
                 (false, i) if i > 0 => Some(at - stride),
-                (true, _) if turns => Some(at - (n - 1) * stride),
-                (false, _) if turns => Some(at + (n - 1) * stride),
+                (true, _) if periodic => Some(at - (n - 1) * stride),
+                (false, _) if periodic => Some(at + (n - 1) * stride),
                 _ => None,
             }
         };
         let beyond = |layer: usize, away: bool| layer.checked_add_signed(if away { 1 } else { -1 });
         let next = match (place, axis, up) {
-            (Place::Gap(at), 1, true) => Place::Above(0, at),
-            (Place::Gap(at), 1, false) => Place::Below(0, at),
-            (Place::Below(0, at), 1, true) | (Place::Above(0, at), 1, false)
+            (VoxelPlace::Gap(at), 1, true) => VoxelPlace::Above(0, at),
+            (VoxelPlace::Gap(at), 1, false) => VoxelPlace::Below(0, at),
+            (VoxelPlace::Below(0, at), 1, true) | (VoxelPlace::Above(0, at), 1, false)
                 if self.lattice.moving.is_some() =>
             {
-                Place::Gap(at)
+                VoxelPlace::Gap(at)
             }
-            (Place::Below(layer, at), 1, up) => Place::Below(beyond(layer, !up)?, at),
-            (Place::Above(layer, at), 1, up) => Place::Above(beyond(layer, up)?, at),
-            (Place::Gap(at), ..) => Place::Gap(shifted(at)?),
-            (Place::Below(layer, at), ..) => Place::Below(layer, shifted(at)?),
-            (Place::Above(layer, at), ..) => Place::Above(layer, shifted(at)?),
+            (VoxelPlace::Below(layer, at), 1, up) => VoxelPlace::Below(beyond(layer, !up)?, at),
+            (VoxelPlace::Above(layer, at), 1, up) => VoxelPlace::Above(beyond(layer, up)?, at),
+            (VoxelPlace::Gap(at), ..) => VoxelPlace::Gap(shifted(at)?),
+            (VoxelPlace::Below(layer, at), ..) => VoxelPlace::Below(layer, shifted(at)?),
+            (VoxelPlace::Above(layer, at), ..) => VoxelPlace::Above(layer, shifted(at)?),
         };
         let code = match next {
-            Place::Gap(at) => self.lattice.gap.get(at),
-            Place::Below(layer, at) => self.lattice.below.get(layer).and_then(|l| l.get(at)),
-            Place::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
+            VoxelPlace::Gap(at) => self.lattice.gap.get(at),
+            VoxelPlace::Below(layer, at) => self.lattice.below.get(layer).and_then(|l| l.get(at)),
+            VoxelPlace::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
         };
         (code == Some(&OPEN)).then_some(next)
     }

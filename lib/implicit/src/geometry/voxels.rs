@@ -2,7 +2,7 @@
 
 use physics::Boundary;
 
-use super::chords::Place;
+use super::chords::VoxelPlace;
 use super::lattice::{Lattice, MIRROR, OPEN};
 use super::mesh::{Face, Mesh, Pore, others};
 use super::rows::RowKind;
@@ -12,12 +12,12 @@ use super::rows::RowKind;
 /// u ~ r^(2/3) sin(2 theta/3); with these factors one alone adds no c r^(-2/3) sin(2 theta/3) far from it.
 const REENTRANT: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 
-/// Cells along a wall, rounded up, within which [`Mesh::beside_steps`] sees a step: what it says near the end of a mesh
+/// Cells along a wall, rounded up, within which [`Mesh::step_proximity`] sees a step: what it says near the end of a mesh
 /// is not what it says in a longer one.
-pub(crate) const STEPS_SEEN: usize = 2;
+pub(crate) const STEP_REACH: usize = 2;
 
 /// A voxel: its cell and its place in it.
-type At = (usize, [usize; 3]);
+type VoxelAt = (usize, [usize; 3]);
 
 impl Mesh {
     /// Where in the lattice a voxel of the cell at a place lies; `None` beyond the layers of a part or an open side.
@@ -26,9 +26,10 @@ impl Mesh {
         lattice: &Lattice,
         [x, y, z]: [usize; 3],
         voxel: [usize; 3],
-    ) -> Option<Place> {
-        let across = lattice.across();
-        let sub = |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.beyond[a] * self.k);
+    ) -> Option<VoxelPlace> {
+        let across = lattice.layer_size();
+        let sub =
+            |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.ghost_layers[a] * self.k);
         let (x, z) = (sub(x, 0)?, sub(z, 2)?);
         if x >= across[0] || z >= across[1] {
             return None;
@@ -39,12 +40,12 @@ impl Mesh {
         match rows.kind(row) {
             RowKind::Below => {
                 let layer = (rows.below - 1 - row) * self.k + (self.k - 1 - b);
-                (layer < lattice.below.len()).then_some(Place::Below(layer, at))
+                (layer < lattice.below.len()).then_some(VoxelPlace::Below(layer, at))
             }
-            RowKind::Gap => Some(Place::Gap(at)),
+            RowKind::Gap => Some(VoxelPlace::Gap(at)),
             RowKind::Above => {
                 let layer = (row - rows.below - rows.gap) * self.k + b;
-                (layer < lattice.above.len()).then_some(Place::Above(layer, at))
+                (layer < lattice.above.len()).then_some(VoxelPlace::Above(layer, at))
             }
         }
     }
@@ -58,7 +59,7 @@ impl Mesh {
     }
 
     /// Whether the voxel at a place in its cell is one of a pore's.
-    pub(crate) fn holds(&self, pore: usize, voxel: [usize; 3]) -> bool {
+    pub(crate) fn has_voxel(&self, pore: usize, voxel: [usize; 3]) -> bool {
         self.pores[pore].voxels >> self.bit(voxel) & 1 == 1
     }
 
@@ -77,7 +78,7 @@ impl Mesh {
     /// Open voxels of a cell of the region.
     pub(super) fn open_voxels(&self, cell: usize) -> u8 {
         (0..self.k.pow(3))
-            .filter(|_| self.region.holds(cell))
+            .filter(|_| self.region.contains(cell))
             .filter(|&bit| self.code(cell, self.voxel(bit)) == OPEN)
             .fold(0, |open, bit| open | 1 << bit)
     }
@@ -90,10 +91,10 @@ impl Mesh {
     /// What fills a voxel of a cell, by the lattice.
     pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
         match self.lattice_place(lattice, self.place(cell), voxel) {
-            Some(Place::Below(layer, at)) => lattice.below[layer][at],
-            Some(Place::Gap(at)) => lattice.gap[at],
-            Some(Place::Above(layer, at)) => lattice.above[layer][at],
-            None if self.boundary[1] == Boundary::Open || self.is_beyond(cell) => OPEN,
+            Some(VoxelPlace::Below(layer, at)) => lattice.below[layer][at],
+            Some(VoxelPlace::Gap(at)) => lattice.gap[at],
+            Some(VoxelPlace::Above(layer, at)) => lattice.above[layer][at],
+            None if self.boundary[1] == Boundary::Open || self.is_ghost(cell) => OPEN,
             None => MIRROR,
         }
     }
@@ -118,11 +119,16 @@ impl Mesh {
 
     /// Logarithm of the factor of friction and exchange between an open voxel and the one next to it along the first of two
     /// axes, by re-entrant edges of walls at either side of them along the second, in cells as high as wide.
-    pub(crate) fn reentrant(&self, at: At, [t, across]: [usize; 2], up: bool) -> f64 {
+    pub(crate) fn ln_reentrant_factor(
+        &self,
+        at: VoxelAt,
+        [t, across]: [usize; 2],
+        up: bool,
+    ) -> f64 {
         let mut sum = 0.0;
         for side in [false, true] {
-            let step = |at: At, axis: usize, up: bool| self.next_voxel(at.0, at.1, axis, up);
-            let wall = |at: At| self.is_wall(at);
+            let step = |at: VoxelAt, axis: usize, up: bool| self.next_voxel(at.0, at.1, axis, up);
+            let wall = |at: VoxelAt| self.is_wall(at);
             // Beyond a mirror is no edge.
             let Some(beside) = step(at, across, side) else {
                 continue;
@@ -140,11 +146,11 @@ impl Mesh {
             };
             let [along, aside] = towards;
             // Whether the walls on both sides of the edge are a cell long, for cells of two voxels.
-            let long = |axis: usize, up: bool, normal: usize, out: bool| {
-                let open = |at: At| step(at, normal, out).and_then(wall) == Some(false);
+            let is_long = |axis: usize, up: bool, normal: usize, out: bool| {
+                let open = |at: VoxelAt| step(at, normal, out).and_then(wall) == Some(false);
                 step(solid, axis, !up).is_some_and(|on| wall(on) == Some(true) && open(on))
             };
-            let whole = long(t, along, across, aside) && long(across, aside, t, along);
+            let whole = is_long(t, along, across, aside) && is_long(across, aside, t, along);
             let within = |axis: usize, up: bool| {
                 let last = self.k - 1;
                 usize::from(at.1[axis] != if up { last } else { 0 })
@@ -160,15 +166,15 @@ impl Mesh {
     }
 
     /// Whether a voxel is solid; `None` beyond a mirror.
-    fn is_wall(&self, (cell, voxel): At) -> Option<bool> {
+    fn is_wall(&self, (cell, voxel): VoxelAt) -> Option<bool> {
         let code = self.code(cell, voxel);
         (code != MIRROR).then_some(code != OPEN)
     }
 
     /// How near a wall at an open voxel along the first of two axes ends in a step along the second: 1 within a cell, 0 from
     /// one and a half on.
-    pub(crate) fn beside_steps(&self, start: At, [t, across]: [usize; 2], up: bool) -> f64 {
-        let is_wall = |at: At| self.is_wall(at);
+    pub(crate) fn step_proximity(&self, start: VoxelAt, [t, across]: [usize; 2], up: bool) -> f64 {
+        let is_wall = |at: VoxelAt| self.is_wall(at);
         let mut nearest = f64::INFINITY;
         for side in [false, true] {
             let mut at = start;

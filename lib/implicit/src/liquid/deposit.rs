@@ -6,7 +6,7 @@ use crate::geometry::Mesh;
 
 /// Cells of a metre and the place of the grid's origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct GridOrigin {
     /// Edge of a cell, m.
     pub(crate) cell_m: f64,
     /// Low side of the domain along x and z, and of the gap along y, m.
@@ -15,7 +15,7 @@ pub(crate) struct Place {
     pub(crate) flat: bool,
 }
 
-impl Place {
+impl GridOrigin {
     /// Half the edges of a point of so much liquid, a cube or as deep as the domain, cells.
     pub(crate) fn half(&self, volume_m3: f64) -> [f64; 3] {
         let volume = volume_m3 / self.cell_m.powi(3);
@@ -33,7 +33,7 @@ impl Place {
 pub(crate) fn deposit(
     mesh: &Mesh,
     points: &Points,
-    place: Place,
+    place: GridOrigin,
     value: impl Fn(&Seed) -> f64,
 ) -> Result<Vec<f64>, String> {
     let mut sums = vec![0.0; mesh.pores.len()];
@@ -63,7 +63,7 @@ fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
                 let row = cell + mesh.range.start;
                 mesh.rows().low(row) + part * mesh.rows().height_of(row)
             }
-            _ => cell as f64 - mesh.beyond[axis] as f64 + part,
+            _ => cell as f64 - mesh.ghost_layers[axis] as f64 + part,
         }
     };
     (0..=k * mesh.size[axis]).map(side).collect()
@@ -79,7 +79,7 @@ fn spread(
     sums: &mut [f64],
 ) -> Option<()> {
     // Voxels, the part of the box along the axis in each, and whether the place is in it.
-    let near = |a: usize| -> Vec<(usize, f64, bool)> {
+    let overlaps = |a: usize| -> Vec<(usize, f64, bool)> {
         let [low, high] = [at[a] - half[a], at[a] + half[a]];
         let first = sides[a]
             .partition_point(|side| *side <= low)
@@ -94,14 +94,14 @@ fn spread(
             })
             .collect()
     };
-    let near = [near(0), near(1), near(2)];
+    let overlaps = [overlaps(0), overlaps(1), overlaps(2)];
     let mut parts = Vec::new();
     let mut inside = false;
-    for &(z, dz, at_z) in &near[2] {
-        for &(y, dy, at_y) in &near[1] {
-            for &(x, dx, at_x) in &near[0] {
+    for &(z, dz, at_z) in &overlaps[2] {
+        for &(y, dy, at_y) in &overlaps[1] {
+            for &(x, dx, at_x) in &overlaps[0] {
                 let cell = mesh.cell_at([x, y, z].map(|i| i / mesh.k));
-                if let Some(pore) = mesh.pore_with(cell, [x, y, z].map(|i| i % mesh.k)) {
+                if let Some(pore) = mesh.pore_at(cell, [x, y, z].map(|i| i % mesh.k)) {
                     parts.push((pore, dx * dy * dz));
                     inside |= at_x && at_y && at_z;
                 }

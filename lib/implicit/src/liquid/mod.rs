@@ -6,7 +6,7 @@ mod overflow;
 mod remap;
 mod transport;
 
-pub(crate) use deposit::{Place, deposit};
+pub(crate) use deposit::{GridOrigin, deposit};
 pub(crate) use remap::{
     FaceMap, remapped_pressures, remapped_region, remapped_velocities, remapped_volumes,
 };

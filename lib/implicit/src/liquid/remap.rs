@@ -6,7 +6,7 @@ use std::ops::Range;
 use physics::Boundary;
 use rayon::prelude::*;
 
-use crate::geometry::{Mesh, Region, RowKind, Rows, STEPS_SEEN};
+use crate::geometry::{Mesh, Region, RowKind, Rows, STEP_REACH};
 
 /// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
@@ -28,7 +28,7 @@ pub(crate) fn remapped_region(
 ) -> Region {
     let [nx, _, nz] = old.size;
     let mut region = Region::new([nx, range.len(), nz], false);
-    for cell in (0..old.size.iter().product()).filter(|&cell| wet.holds(cell)) {
+    for cell in (0..old.size.iter().product()).filter(|&cell| wet.contains(cell)) {
         let [x, _, z] = old.place(cell);
         let row = old.row(cell);
         // Of a gap that is gone, the rows beside it.
@@ -58,15 +58,15 @@ impl FaceMap {
     pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
         let in_rows = |mesh: &Mesh, row: usize| {
             let range = &mesh.range;
-            (range.start == 0 || row >= range.start + STEPS_SEEN)
-                && (range.end == mesh.rows().len() || row + STEPS_SEEN < range.end)
+            (range.start == 0 || row >= range.start + STEP_REACH)
+                && (range.end == mesh.rows().len() || row + STEP_REACH < range.end)
         };
         let inner = old.region.inner(old.periodic());
         let old_cell = |pore: usize| {
             let [x, _, z] = new.place(new.cell(pore));
             let row = new.row_of(pore);
             let cell = old.cell_at([x, same_row(new, old, row)?, z]);
-            let whole = inner.holds(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
+            let whole = inner.contains(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
             Some((cell, whole))
         };
         let old_cells: Vec<_> = (0..new.pores.len()).into_par_iter().map(old_cell).collect();
@@ -77,15 +77,18 @@ impl FaceMap {
             let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
             let index = face - new.faces_of(cell, axis).start;
             let old_face = old.faces_of(low.0, axis).nth(index)?;
-            let by_gap = new.is_by_gap(face) || old.is_by_gap(old_face);
+            let depends_on_gap = new.touches_gap(face) || old.touches_gap(old_face);
             let periodic = new.boundary[1] == Boundary::Periodic;
-            Some((old_face as u32, low.1 && high.1 && !by_gap && !periodic))
+            Some((
+                old_face as u32,
+                low.1 && high.1 && !depends_on_gap && !periodic,
+            ))
         };
         Self((0..new.faces.len()).into_par_iter().map(found).collect())
     }
 
     /// The face of the other mesh that a face is, where it has the same surroundings.
-    pub(crate) fn whole(&self, face: usize) -> Option<usize> {
+    pub(crate) fn unchanged(&self, face: usize) -> Option<usize> {
         let (same, whole) = self.0.get(face).copied().flatten()?;
         whole.then_some(same as usize)
     }
@@ -118,25 +121,25 @@ fn overlapping(new: &Mesh, old: &Mesh) -> Vec<Vec<(usize, f64)>> {
 /// Volumes of `old` on `new`; what the last row of a gap held that is gone goes to the pores beside it.
 pub(crate) fn remapped_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
     let sum = |parts: &mut dyn Iterator<Item = (f64, f64)>| parts.map(|(part, of)| part * of).sum();
-    let mut carried = of_pores(new, old, volumes, sum);
+    let mut remapped = remapped_pores(new, old, volumes, sum);
     if new.rows().gap == 0 && old.rows().gap > 0 {
         for row in old.rows().below..old.rows().below + old.rows().gap {
             let pores = (0..volumes.len()).filter(|&pore| old.row_of(pore) == row);
             for pore in pores.filter(|&pore| volumes[pore] != 0.0) {
-                let outlets = outlets(new, old, pore);
+                let outlets = pores_beside_closed_gap(new, old, pore);
                 let part = volumes[pore] / outlets.len().max(1) as f64;
                 for pore in outlets {
-                    carried[pore] += part;
+                    remapped[pore] += part;
                 }
             }
         }
     }
-    carried
+    remapped
 }
 
 /// Pressures of `old` on `new`; that of a gap that is gone is gone with it.
 pub(crate) fn remapped_pressures(new: &Mesh, old: &Mesh, pressure: &[f64]) -> Vec<f64> {
-    of_pores(new, old, pressure, mean)
+    remapped_pores(new, old, pressure, mean)
 }
 
 /// Mean of values by their parts.
@@ -149,38 +152,38 @@ fn mean(parts: &mut dyn Iterator<Item = (f64, f64)>) -> f64 {
 
 /// Values of the pores of `old` on `new`: in the gap, what `join` makes of those of the rows that overlap one, each with
 /// the part of its row that does.
-fn of_pores(
+fn remapped_pores(
     new: &Mesh,
     old: &Mesh,
     values: &[f64],
-    join: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64 + Sync,
+    combine: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64 + Sync,
 ) -> Vec<f64> {
     let rows = overlapping(new, old);
     let value = |pore: usize| {
         let cell = new.cell(pore);
         let index = pore - new.pores_of(cell).start;
         let at = |cell: usize| old.pores_of(cell).nth(index);
-        joined((new, old, &rows), cell, at, values, &join)
+        combined((new, old, &rows), cell, at, values, &combine)
     };
     (0..new.pores.len()).into_par_iter().map(value).collect()
 }
 
 /// A value in a cell of `new` from those of `old` in the cells of the `rows` that its own is or overlaps: 0 where one is
 /// `at` no place there.
-fn joined(
+fn combined(
     (new, old, rows): (&Mesh, &Mesh, &[Vec<(usize, f64)>]),
     cell: usize,
     at: impl Fn(usize) -> Option<usize>,
     values: &[f64],
-    join: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64,
+    combine: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64,
 ) -> f64 {
     let [x, y, z] = new.place(cell);
     let value = |y: usize| at(old.cell_at([x, y, z])).map_or(0.0, |at| values[at]);
-    join(&mut rows[y].iter().map(|&(y, part)| (part, value(y))))
+    combine(&mut rows[y].iter().map(|&(y, part)| (part, value(y))))
 }
 
 /// The pores above and below a pore of a gap that is gone, or those of the nearest in the gap that have some.
-fn outlets(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
+fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == RowKind::Gap;
     let mut seen = HashSet::from([pore]);
     let mut front = vec![pore];
@@ -215,7 +218,7 @@ fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
         let cell = new.cell_at([x, row - new.range.start, z]);
         for [a, b, c] in old.voxels(pore) {
             if b == 0 {
-                found.extend(new.pore_with(cell, [a, voxel_row, c]));
+                found.extend(new.pore_at(cell, [a, voxel_row, c]));
             }
         }
     }
@@ -234,7 +237,7 @@ pub(crate) fn remapped_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> V
             true => 0.0,
             false => {
                 let at = |cell: usize| old.faces_of(cell, axis).nth(index);
-                joined((new, old, &rows), cell, at, velocity, mean)
+                combined((new, old, &rows), cell, at, velocity, mean)
             }
         }
     };
@@ -247,11 +250,11 @@ mod tests {
 
     /// What friction finds two rows from the end of a mesh is found anew when the mesh grows there.
     #[test]
-    fn faces_near_the_end_of_a_mesh_are_not_kept() {
+    fn faces_near_the_end_of_a_mesh_are_found_anew() {
         let [whole, short] = [0, 4].map(|start| Mesh::column_from([12, 1], 2, start));
-        let kept = FaceMap::new(&whole, &short);
+        let face_map = FaceMap::new(&whole, &short);
         let rows: Vec<usize> = (0..whole.faces.len())
-            .filter(|&face| kept.whole(face).is_some())
+            .filter(|&face| face_map.unchanged(face).is_some())
             .map(|face| whole.row_of(whole.faces[face].low as usize))
             .collect();
         assert_eq!(rows, [6, 7, 8, 9, 10]);

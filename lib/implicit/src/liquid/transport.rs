@@ -105,7 +105,7 @@ fn advect_substep(
         advect_water(mesh, &volumes_before, water, &flux);
     }
     for (pore, volume) in volumes.iter_mut().enumerate() {
-        if mesh.is_beyond(mesh.cell(pore)) {
+        if mesh.is_ghost(mesh.cell(pore)) {
             moved.lost[0] += std::mem::take(volume);
             moved.lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
         }

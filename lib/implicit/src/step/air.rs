@@ -8,19 +8,19 @@ use crate::geometry::DRIFT;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
 /// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
-const HELD: &str = "air";
+const AIR: &str = "air";
 const COUNTS: &str = "air_counts";
 
 /// The air of a run, from step to step.
 #[derive(Clone, Debug, Default)]
-pub(super) struct HeldAir {
+pub(super) struct AirState {
     /// Absolute pressure over its unit times volume in each pore; empty where air has no pressure.
-    pub(super) of: Vec<f64>,
+    pub(super) mass: Vec<f64>,
     /// Pockets of the last step, and millionths of their air that lie under liquid, without a pressure.
     pockets: u64,
     covered: u64,
     /// Steps whose air did not come to its pressure.
-    pub(super) astray: u64,
+    pub(super) unsettled: u64,
 }
 
 impl Implicit {
@@ -33,16 +33,16 @@ impl Implicit {
     }
 
     /// The air at the start: all is outside.
-    pub(super) fn first_air(&self) -> HeldAir {
+    pub(super) fn first_air(&self) -> AirState {
         let outside = |gas: Gas| self.void().iter().map(|void| gas.outside * void).collect();
-        HeldAir {
-            of: self.setup.gas.map_or(Vec::new(), outside),
-            ..HeldAir::default()
+        AirState {
+            mass: self.setup.gas.map_or(Vec::new(), outside),
+            ..AirState::default()
         }
     }
 
     /// The pockets of a step of `dt` (s), about their volumes at its start, where air has pressures.
-    pub(super) fn closed_off(
+    pub(super) fn air_pockets(
         &self,
         unknowns: &Unknowns,
         fractions: &[f64],
@@ -54,7 +54,7 @@ impl Implicit {
             |pore| unknowns.has_pressure(pore),
             |pore| fractions[pore] >= FULL,
             &self.void(),
-            &self.state.air.of,
+            &self.state.air.mass,
             // With a clamp, its body leaves room.
             self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
         );
@@ -91,9 +91,9 @@ impl Implicit {
         let wetting = wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
             cosine: wetting.contact_angle.cos(),
-            slowing: setup.settings.dynamic_angle * viscosity,
+            dynamic_coefficient: setup.settings.dynamic_angle * viscosity,
             dt,
-            shorter: match self.state.steps {
+            step_ratio: match self.state.steps {
                 0 => 1.0,
                 _ => (self.state.dt / dt).min(1.0),
             },
@@ -137,7 +137,7 @@ impl Implicit {
     }
 
     /// Takes in the air of a step of `dt` (s) that is over.
-    pub(super) fn keep_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
+    pub(super) fn store_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
         let flow = &self.state.flow;
         for pocket in air.pockets.iter_mut() {
             let pressure = flow.pressure[pocket.pores[0] as usize];
@@ -150,11 +150,11 @@ impl Implicit {
         }
         let all = air.pockets.iter().chain(&air.dry);
         let all: f64 = all.map(|pocket| pocket.mass).sum::<f64>() + air.covered;
-        self.state.air = HeldAir {
+        self.state.air = AirState {
             pockets: (air.pockets.len() + air.dry.len()) as u64,
             covered: (1e6 * air.covered / all.max(f64::MIN_POSITIVE)).round() as u64,
-            astray: self.state.air.astray + u64::from(!settled),
-            of: air.after(&self.void(), gas.outside),
+            unsettled: self.state.air.unsettled + u64::from(!settled),
+            mass: air.mass_after_step(&self.void(), gas.outside),
         };
     }
 
@@ -169,7 +169,10 @@ impl Implicit {
                     "millionths of the air closed off that lie under liquid",
                     air.covered,
                 ),
-                ("steps whose air did not come to its pressure", air.astray),
+                (
+                    "steps whose air did not come to its pressure",
+                    air.unsettled,
+                ),
             ],
         }
     }
@@ -177,11 +180,11 @@ impl Implicit {
     /// The air as arrays of a checkpoint.
     pub(super) fn save_air(&self) -> Vec<(&'static str, Array)> {
         let air = &self.state.air;
-        let counts = [air.pockets, air.covered, air.astray].map(|count| count as f64);
+        let counts = [air.pockets, air.covered, air.unsettled].map(|count| count as f64);
         match self.setup.gas {
             None => Vec::new(),
             Some(_) => vec![
-                (HELD, Array::F64(air.of.clone())),
+                (AIR, Array::F64(air.mass.clone())),
                 (COUNTS, Array::F64(counts.to_vec())),
             ],
         }
@@ -191,20 +194,20 @@ impl Implicit {
     ///
     /// # Errors
     /// Where it is absent, or of no run of this scene.
-    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<HeldAir, String> {
+    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<AirState, String> {
         if self.setup.gas.is_none() {
-            return Ok(HeldAir::default());
+            return Ok(AirState::default());
         }
-        let (of, counts) = (saved.f64s(HELD)?, saved.f64s(COUNTS)?);
-        restored::check_finite(of, HELD)?;
+        let (of, counts) = (saved.f64s(AIR)?, saved.f64s(COUNTS)?);
+        restored::check_finite(of, AIR)?;
         restored::check_finite(counts, COUNTS)?;
         let least = of.iter().chain(counts).copied().fold(0.0, f64::min);
         match counts {
-            &[pockets, covered, astray] if of.len() == pores && least >= 0.0 => Ok(HeldAir {
-                of: of.to_vec(),
+            &[pockets, covered, unsettled] if of.len() == pores && least >= 0.0 => Ok(AirState {
+                mass: of.to_vec(),
                 pockets: pockets as u64,
                 covered: covered as u64,
-                astray: astray as u64,
+                unsettled: unsettled as u64,
             }),
             _ => Err("the checkpoint's air is not that of this scene".into()),
         }

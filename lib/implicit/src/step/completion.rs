@@ -14,14 +14,14 @@ use crate::system::Flow;
 
 /// Most by which flow is expected to go on growing: without, steps of a flow that grows are solved twice; a flow that starts is no
 /// trend.
-const FORESEEN: f64 = 1.25;
+const MAX_FORESEEN_GROWTH: f64 = 1.25;
 /// Fraction of the faces, the fastest, that the Courant number ignores: of more, liquid goes astray; of none, jets through holes of a
 /// voxel set the step.
-const JETS: f64 = 1e-3;
+const IGNORED_FACES: f64 = 1e-3;
 
 impl Implicit {
     /// Completes an accepted step.
-    pub(super) fn follow(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
+    pub(super) fn complete_step(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
         let Solved {
             dt,
             flow,
@@ -29,18 +29,19 @@ impl Implicit {
             forces,
             settled,
             air,
-            arrives,
+            ends_travel,
             exchange,
         } = solved;
         let cell_m = self.setup.units.cell_m;
-        let travel = match arrives {
-            true => self.left(limit),
+        let travel = match ends_travel {
+            true => self.travel_left(limit),
             false => flow.speed * dt,
         };
         self.move_liquid(travel, &flow.velocity, &full, exchange, dt);
         let state = &mut self.state;
         let fastest = fastest(&flow, self.setup.settings.cfl);
-        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
+        state.growth =
+            (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, MAX_FORESEEN_GROWTH);
         state.fastest = fastest;
         state.unsettled += u64::from(!settled);
         state.power = flow.dissipation;
@@ -52,7 +53,7 @@ impl Implicit {
         let pressure = |body: Option<usize>, sign: f64| {
             body.map_or(0.0, |body| {
                 let force = match self.setup.lattice.is_moving(body) {
-                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
+                    true => -sign * self.setup.lattice.body_speed(body) * flow.force,
                     false => sign * forces[body],
                 };
                 self.setup.pressure(force)
@@ -71,11 +72,11 @@ impl Implicit {
         };
         self.state.flow = flow;
         if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
-            self.keep_air(gas, air, settled, dt);
+            self.store_air(gas, air, settled, dt);
         }
         // A state has no row without height.
         if self.setup.lattice.moving.is_some() && self.height == 0.0 {
-            self.fit_mesh();
+            self.update_mesh();
         }
         report
     }
@@ -142,7 +143,7 @@ impl Implicit {
                 displacement[a] += slide[a] * dt;
             }
             if lattice.is_moving(body) {
-                displacement[1] += lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
+                displacement[1] += lattice.body_speed(body) * travel * cell_m - slide[1] * dt;
             }
         }
     }
@@ -157,7 +158,7 @@ pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
     if speeds.is_empty() {
         return 0.0;
     }
-    let at = ((1.0 - JETS) * (speeds.len() - 1) as f64) as usize;
+    let at = ((1.0 - IGNORED_FACES) * (speeds.len() - 1) as f64) as usize;
     let most = speeds.iter().fold(0.0, |most: f64, &v| v.max(most));
     let (_, &mut counted, _) = speeds.select_nth_unstable_by(at, f64::total_cmp);
     counted.max(most * cfl / LARGEST_CFL)

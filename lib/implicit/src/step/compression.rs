@@ -25,32 +25,32 @@ pub(super) struct Compression<'a> {
 
 impl Compression<'_> {
     /// What a pore holds more than its volume at no pressure, over that.
-    fn denser(&self, pressure: f64) -> f64 {
+    fn relative_excess(&self, pressure: f64) -> f64 {
         1.0 / (1.0 + self.tait.volume_change(pressure * self.unit)) - 1.0
     }
 
     /// The same by the law that is linear around another pressure.
     fn linear(&self, pressure: f64, around: f64) -> f64 {
         let slope = self.unit / self.tait.bulk_modulus;
-        self.denser(around) + slope * (pressure - around)
+        self.relative_excess(around) + slope * (pressure - around)
     }
 
-    fn rooms(&self, pore: usize) -> [f64; 2] {
+    fn pore_volumes(&self, pore: usize) -> [f64; 2] {
         self.heights.map(|height| self.mesh.volume_at(pore, height))
     }
 
     /// Volumes that `pores` give off by themselves, over the time of the step: compression at the start less that at no
     /// pressure by the law around the pressures `around`; and what full pores hold more or less than their pressure explains.
     /// It goes in the time in which the last flow crosses a cell, not the sooner the shorter the step is.
-    pub(super) fn released(&self, pores: &[u32], around: &[f64]) -> Vec<f64> {
+    pub(super) fn release_rates(&self, pores: &[u32], around: &[f64]) -> Vec<f64> {
         let [dt, crossing] = self.times;
         let released = |&pore: &u32| {
             let pore = pore as usize;
             if !self.full[pore] {
                 return 0.0;
             }
-            let [before, after] = self.rooms(pore);
-            let compressed = before * self.denser(self.pressure[pore]);
+            let [before, after] = self.pore_volumes(pore);
+            let compressed = before * self.relative_excess(self.pressure[pore]);
             let off = self.volumes[pore] - before - compressed;
             (compressed - after * self.linear(0.0, around[pore])) / dt + off / crossing.max(dt)
         };
@@ -58,14 +58,14 @@ impl Compression<'_> {
     }
 
     /// Whether the pressures `found` by the law around others obey it.
-    pub(super) fn holds(&self, pores: &[u32], around: &[f64], found: &[f64]) -> bool {
+    pub(super) fn obeys_law(&self, pores: &[u32], around: &[f64], found: &[f64]) -> bool {
         let (mut off, mut all, mut volume) = (0.0, 0.0, 0.0);
         for pore in pores.iter().map(|&pore| pore as usize) {
             if self.full[pore] {
-                let [before, after] = self.rooms(pore);
-                let denser = self.denser(found[pore]);
+                let [before, after] = self.pore_volumes(pore);
+                let denser = self.relative_excess(found[pore]);
                 off += after * (denser - self.linear(found[pore], around[pore])).abs();
-                let changed = after * (denser - self.denser(self.pressure[pore])).abs();
+                let changed = after * (denser - self.relative_excess(self.pressure[pore])).abs();
                 all += changed + (before - after).abs();
                 volume += after;
             }
@@ -94,7 +94,7 @@ mod tests {
                 heights: [0.0; 2],
                 times: [dt, 1.0],
             };
-            dt * compression.released(&[0], &[0.0])[0]
+            dt * compression.release_rates(&[0], &[0.0])[0]
         };
         for off in [-0.1, 0.1] {
             let moved = [1.0, 0.1].map(|dt| released(1.0 + off, 0.0, dt));

@@ -12,25 +12,25 @@ enum Control {
     Free,
     /// At full speed until that would exceed the limit; held at the limit then, and at full speed again
     /// where that no longer reaches it.
-    Limit(Hold),
+    Limit(LoadControl),
     /// By the case's PID, after each step.
     Pid(PidControl),
 }
 
 /// A clamp under its own load control.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hold {
+pub(super) struct LoadControl {
     /// Largest speed, and the least, below zero where the clamp gives way, m/s.
     speeds: [f64; 2],
     /// Pressure limit, and the least that excess over it is measured by, Pa.
     pub(super) limit: f64,
-    least: f64,
-    held: bool,
+    min_scale: f64,
+    active: bool,
     /// Whether it is to press no more.
     releases: bool,
 }
 
-impl Hold {
+impl LoadControl {
     /// That of the stage that is on.
     fn of(programme: &PressRun) -> Self {
         let stage = programme.stage();
@@ -43,15 +43,15 @@ impl Hold {
             speeds: [full, -stage.speed],
             limit: programme.set_pressure(0.0),
             // A release holds nothing, by which no residual can be measured.
-            least: MISSED * programme.largest(),
-            held: releases,
+            min_scale: MISSED * programme.largest(),
+            active: releases,
             releases,
         }
     }
 
     /// What excess over the limit is measured by, Pa.
     pub(super) fn scale(&self) -> f64 {
-        self.limit.max(self.least)
+        self.limit.max(self.min_scale)
     }
 }
 
@@ -64,7 +64,7 @@ pub(super) struct ClampDrive {
     /// Closing speed now, m/s.
     pub(super) speed: f64,
     /// Steps that did not keep the pressure limit, and the pressure of the last step if it is one, Pa.
-    pub(super) broken: (u64, f64),
+    pub(super) violations: (u64, f64),
 }
 
 impl ClampDrive {
@@ -77,15 +77,15 @@ impl ClampDrive {
     ) -> Self {
         let limited = clamp.and_then(|clamp| Some((clamp, clamp.max_pressure?)));
         let control = match (&programme, limited) {
-            (Some(programme), _) => Control::Limit(Hold::of(programme)),
+            (Some(programme), _) => Control::Limit(LoadControl::of(programme)),
             (None, Some((clamp, _))) if clamp.pid.is_some() => {
                 Control::Pid(PidControl::new(clamp, acoustic_time))
             }
-            (None, Some((clamp, limit))) => Control::Limit(Hold {
+            (None, Some((clamp, limit))) => Control::Limit(LoadControl {
                 speeds: [clamp.closing_speed, 0.0],
                 limit,
-                least: 0.0,
-                held: false,
+                min_scale: 0.0,
+                active: false,
                 releases: false,
             }),
             _ => Control::Free,
@@ -95,7 +95,7 @@ impl ClampDrive {
             control,
             speed: programme.as_ref().map_or(full, first),
             programme,
-            broken: (0, 0.0),
+            violations: (0, 0.0),
         }
     }
 
@@ -110,62 +110,63 @@ impl ClampDrive {
     }
 
     /// Speed, m/s, at which the clamp gives way where it does at once.
-    pub(super) fn giving_way(&self) -> Option<f64> {
+    pub(super) fn retreat_speed(&self) -> Option<f64> {
         let programme = self.programme.as_ref().filter(|run| run.gives_way());
         programme.map(|run| run.stage().speed)
     }
 
     /// A limit of a step within the stage that is on, for a clamp that has travelled `travel` (m).
-    pub(super) fn within(&self, limit: StepLimit, travel: f64) -> StepLimit {
+    pub(super) fn bounded_by_stage(&self, limit: StepLimit, travel: f64) -> StepLimit {
         let programme = self.programme.as_ref();
         programme.map_or(limit, |programme| programme.within(limit, travel))
     }
 
     /// Sets the pressure limit to that `ahead` (s) of now. The speed of a held clamp is expected to change with it: viscous
     /// liquid answers a force in proportion.
-    pub(super) fn aim(&mut self, ahead: f64) {
-        let (Some(programme), Control::Limit(hold)) = (&self.programme, &mut self.control) else {
+    pub(super) fn set_limit_ahead(&mut self, ahead: f64) {
+        let (Some(programme), Control::Limit(control)) = (&self.programme, &mut self.control)
+        else {
             return;
         };
         let limit = programme.set_pressure(ahead);
-        let factor = limit / hold.limit;
-        hold.limit = limit;
-        if hold.held && factor > 0.0 && factor.is_finite() {
-            self.speed = (self.speed * factor).min(hold.speeds[0]);
+        let factor = limit / control.limit;
+        control.limit = limit;
+        if control.active && factor > 0.0 && factor.is_finite() {
+            self.speed = (self.speed * factor).min(control.speeds[0]);
         }
     }
 
     /// What the clamp is held at, its speed being unknown.
-    pub(super) fn held(&self) -> Option<Hold> {
+    pub(super) fn active_load_control(&self) -> Option<LoadControl> {
         match self.control {
-            Control::Limit(hold) if hold.held => Some(hold),
+            Control::Limit(control) if control.active => Some(control),
             _ => None,
         }
     }
 
     /// The limit where `pressure` (Pa) at full speed exceeds it: the clamp is held from now
     /// on, and `speed` is a guess at its speed.
-    pub(super) fn exceeded(&mut self, pressure: f64) -> Option<Hold> {
-        let Control::Limit(hold) = &mut self.control else {
+    pub(super) fn activate_if_exceeded(&mut self, pressure: f64) -> Option<LoadControl> {
+        let Control::Limit(control) = &mut self.control else {
             return None;
         };
-        if hold.held || pressure <= hold.limit + CONTROLLED * hold.scale() {
+        if control.active || pressure <= control.limit + CONTROLLED * control.scale() {
             return None;
         }
-        hold.held = true;
-        self.speed *= hold.limit / pressure;
-        Some(*hold)
+        control.active = true;
+        self.speed *= control.limit / pressure;
+        Some(*control)
     }
 
     /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
     /// moves at the nearest speed that it can: it goes no faster than at full speed, and without a
     /// programme stands where compressed liquid would open it.
-    pub(super) fn follow(&mut self, speed: f64) -> bool {
-        let Control::Limit(hold) = &mut self.control else {
+    pub(super) fn accept_speed(&mut self, speed: f64) -> bool {
+        let Control::Limit(control) = &mut self.control else {
             return true;
         };
-        let [full, least] = hold.speeds;
-        hold.held = speed < full;
+        let [full, least] = control.speeds;
+        control.active = speed < full;
         self.speed = speed.clamp(least, full);
         self.speed == speed
     }
@@ -175,22 +176,22 @@ impl ClampDrive {
     pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
         let bounds = match &self.control {
             // A release has no limit: air that expands presses the body on as fast as it gives way.
-            Control::Limit(hold) if hold.releases => None,
-            Control::Limit(hold) => Some((hold.limit, hold.scale())),
+            Control::Limit(control) if control.releases => None,
+            Control::Limit(control) => Some((control.limit, control.scale())),
             Control::Pid(pid) => pid.limit().map(|limit| (limit, limit)),
             Control::Free => None,
         };
         if bounds.is_some_and(|(limit, scale)| breaks(pressure, limit, scale)) {
-            self.broken = (self.broken.0 + 1, pressure);
+            self.violations = (self.violations.0 + 1, pressure);
         } else {
-            self.broken.1 = 0.0;
+            self.violations.1 = 0.0;
         }
         match (&mut self.control, &mut self.programme) {
             (Control::Pid(pid), _) => {
                 pid.observe(pressure, dt);
                 self.speed = pid.speed();
             }
-            (Control::Limit(hold), Some(programme)) => {
+            (Control::Limit(control), Some(programme)) => {
                 let step = PressStep {
                     dt_s: dt,
                     speed: self.speed,
@@ -198,17 +199,18 @@ impl ClampDrive {
                     pressure,
                 };
                 let next = programme.observe(step);
-                let before = *hold;
-                *hold = Hold::of(programme);
+                let before = *control;
+                *control = LoadControl::of(programme);
                 let kind = programme.stage().kind;
-                if !next || before.held && kind != Press::Approach && before.limit > 0.0 {
+                if !next || before.active && kind != Press::Approach && before.limit > 0.0 {
                     // Speed and limit of the last step say what those of the next are.
-                    (hold.held, hold.limit) = (before.held || hold.held, before.limit);
-                    self.speed = self.speed.min(hold.speeds[0]);
+                    (control.active, control.limit) =
+                        (before.active || control.active, before.limit);
+                    self.speed = self.speed.min(control.speeds[0]);
                 } else {
                     self.speed = match kind {
                         Press::Release => 0.0,
-                        _ => hold.speeds[0],
+                        _ => control.speeds[0],
                     };
                 }
             }
@@ -220,25 +222,27 @@ impl ClampDrive {
     pub(super) fn state(&self) -> [f64; 7] {
         let rest = match (&self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.state(),
-            (Control::Limit(hold), Some(_)) if hold.limit.is_finite() => [hold.limit, 0.0, 0.0],
+            (Control::Limit(control), Some(_)) if control.limit.is_finite() => {
+                [control.limit, 0.0, 0.0]
+            }
             _ => [0.0; 3],
         };
-        let held = f64::from(u8::from(self.held().is_some()));
-        let (steps, pressure) = (self.broken.0 as f64, self.broken.1);
+        let held = f64::from(u8::from(self.active_load_control().is_some()));
+        let (steps, pressure) = (self.violations.0 as f64, self.violations.1);
         [self.speed, held, steps, pressure, rest[0], rest[1], rest[2]]
     }
 
     /// Goes back to a saved changing part, of a programme that is back where it was.
     pub(super) fn set_state(&mut self, [speed, was_held, steps, pressure, a, b, c]: [f64; 7]) {
-        (self.speed, self.broken) = (speed, (steps as u64, pressure));
+        (self.speed, self.violations) = (speed, (steps as u64, pressure));
         match (&mut self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.set_state([a, b, c]),
-            (Control::Limit(hold), programme) => {
+            (Control::Limit(control), programme) => {
                 if let Some(programme) = programme {
-                    *hold = Hold::of(programme);
-                    hold.limit = a;
+                    *control = LoadControl::of(programme);
+                    control.limit = a;
                 }
-                hold.held = was_held != 0.0;
+                control.active = was_held != 0.0;
             }
             (Control::Free, _) => {}
         }
@@ -267,14 +271,17 @@ mod tests {
             pid: None,
         };
         let mut drive = ClampDrive::new(Some(clamp), None, 1e-9, 2.0);
-        assert!(drive.exceeded(1.004e6).is_none());
-        let limit = |hold: Option<Hold>| hold.map(|hold| hold.limit);
-        assert_eq!(limit(drive.exceeded(1.006e6)), Some(1e6));
-        assert!(!drive.follow(-1.0));
-        assert_eq!((drive.speed, limit(drive.held())), (0.0, Some(1e6)));
+        assert!(drive.activate_if_exceeded(1.004e6).is_none());
+        let limit = |control: Option<LoadControl>| control.map(|control| control.limit);
+        assert_eq!(limit(drive.activate_if_exceeded(1.006e6)), Some(1e6));
+        assert!(!drive.accept_speed(-1.0));
+        assert_eq!(
+            (drive.speed, limit(drive.active_load_control())),
+            (0.0, Some(1e6))
+        );
         let broken = [1.019e6, 1.021e6, 1.03e6, 1e6].map(|pressure| {
             drive.observe(pressure, 1e-9, 0.0);
-            drive.broken
+            drive.violations
         });
         assert_eq!(broken, [(0, 0.0), (1, 1.021e6), (2, 1.03e6), (2, 0.0)]);
     }
@@ -294,10 +301,10 @@ mod tests {
             };
             let programme = PressRun::new(vec![stage], 1e-5);
             let mut drive = ClampDrive::new(None, Some(programme), 1e-9, 1e-3);
-            drive.aim(1.0);
-            drive.follow(-2e-3);
+            drive.set_limit_ahead(1.0);
+            drive.accept_speed(-2e-3);
             drive.observe(2e6, 1.0, 0.0);
-            drive.broken.0
+            drive.violations.0
         });
         assert_eq!(broken, [1, 0]);
     }

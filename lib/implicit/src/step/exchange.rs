@@ -123,7 +123,7 @@ impl Implicit {
             let axis = usize::from(face.axis);
             let area = mesh.area(index);
             let length = |pore: usize, up: bool| {
-                mesh.share(index, pore, axis, up) * mesh.volume(pore) / area
+                mesh.area_share(index, pore, axis, up) * mesh.volume(pore) / area
             };
             let distance = 0.5 * (length(ends[0], true) + length(ends[1], false));
             let dry = |n: u32| 1.0 / (1.0 + nodes[n as usize].ratio);

@@ -15,7 +15,7 @@ impl Implicit {
     }
 
     /// Attempts at a step of which none was short enough; the last one because the liquid `dries`.
-    pub(super) fn no_step(&self, dries: bool) -> Failure {
+    pub(super) fn no_acceptable_length(&self, dries: bool) -> Failure {
         let why = match dries {
             true => "the liquid dries too fast for any: a smaller uptake, a larger diffusivity or a flatter \
                      viscosity_by_solids is needed"

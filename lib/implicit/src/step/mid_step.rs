@@ -10,7 +10,7 @@ use crate::system::{FULL, Flow, halves, masses};
 
 /// Part of what flows into voids that they may have no room for: steps of wood with many lumens stay below it and are solved
 /// once; results hardly depend on it up to 0.1.
-const OVERFILLED: f64 = 0.03;
+const MAX_OVERFILL: f64 = 0.03;
 
 /// The liquid in the middle of a step, and what all solutions have in common that begin there.
 pub(super) struct MidStep {
@@ -28,12 +28,12 @@ pub(super) struct MidStep {
     /// Factor of the viscosity by cure.
     pub(super) viscosity: f64,
     /// Of a liquid that loses water: what it loses.
-    pub(super) lost: Option<WaterExchange>,
+    pub(super) water_loss: Option<WaterExchange>,
 }
 
 impl MidStep {
     /// Whether more pores have a pressure than in `other`.
-    pub(super) fn meets_more(&self, other: &Self) -> bool {
+    pub(super) fn has_more_full_pores(&self, other: &Self) -> bool {
         let both = self.fractions.iter().zip(&other.fractions);
         both.into_iter()
             .any(|(&here, &there)| here == 1.0 && there < 1.0)
@@ -60,7 +60,7 @@ impl Implicit {
         if let Some(flow) = flow {
             self.fill_voids(dt, end, &mut full, flow);
         }
-        let fractions = self.filled(dt, &full, flow);
+        let fractions = self.mid_fractions(dt, &full, flow);
         let begun = Instant::now();
         if closes {
             let channels = self.setup.channels(&self.mesh);
@@ -81,15 +81,15 @@ impl Implicit {
             halves,
             masses,
             viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
-            lost: None,
+            water_loss: None,
         }
     }
 
     /// Finds what liquid loses in a `middle` that is solved.
-    pub(super) fn dry(&mut self, middle: &mut MidStep) -> Result<(), String> {
+    pub(super) fn find_water_loss(&mut self, middle: &mut MidStep) -> Result<(), String> {
         let begun = Instant::now();
-        middle.lost = self.exchange(middle.dt, &middle.fractions)?;
-        if middle.lost.is_some() {
+        middle.water_loss = self.exchange(middle.dt, &middle.fractions)?;
+        if middle.water_loss.is_some() {
             self.clock.add(Stage::Water, begun);
         }
         Ok(())
@@ -135,7 +135,7 @@ impl Implicit {
     }
 
     /// What pores are filled to in the middle of a step of `dt` (s), those `full` at its start and others, by a `flow` or the last.
-    fn filled(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
+    fn mid_fractions(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
         let begun = Instant::now();
         let (state, mesh) = (&self.state, &self.mesh);
         let velocity = &flow.unwrap_or(&state.flow).velocity;
@@ -174,7 +174,7 @@ impl Implicit {
 
     /// What a pore can hold at a height of the gap: without end beyond open sides.
     fn capacity(&self, pore: usize, height: f64) -> f64 {
-        match self.mesh.is_beyond(self.mesh.cell(pore)) {
+        match self.mesh.is_ghost(self.mesh.cell(pore)) {
             true => f64::INFINITY,
             false => self.mesh.volume_at(pore, height),
         }
@@ -183,6 +183,6 @@ impl Implicit {
     /// Whether a flow that was solved in a `middle` brings into voids more than they have room for.
     pub(super) fn overfills(&self, middle: &MidStep, flow: &Flow) -> bool {
         let end = self.end_height(middle.dt, flow.speed);
-        self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > OVERFILLED
+        self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > MAX_OVERFILL
     }
 }

@@ -25,7 +25,7 @@ use crate::geometry::Mesh;
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, WallCouplings};
 use crate::water::Walls;
-use air::HeldAir;
+use air::AirState;
 use completion::fastest;
 use drive::ClampDrive;
 use setup::Setup;
@@ -34,10 +34,10 @@ use water::WaterBalance;
 /// Attempts at a step of acceptable length; the second nearly always is.
 const ATTEMPTS: usize = 8;
 /// Excess over the Courant number that a step may have: so few steps are solved twice.
-const EXCESS: f64 = 1.1;
+const CFL_EXCESS: f64 = 1.1;
 /// Most that cure changes ln(viscosity) by in a step, and what one aims at where the liquid dries: its middle then differs from
 /// the mean of 1/viscosity by 0.17 %.
-pub(crate) const THICKENS: f64 = 0.2;
+pub(crate) const LN_VISCOSITY_STEP: f64 = 0.2;
 /// Most that a step grows by where menisci are held: they break loose from rest, where no speed tells how long a step may be, and
 /// steps that may grow at once come no nearer to rest (docs/decisions/menisci.md).
 const GROWTH: f64 = 2.0;
@@ -64,7 +64,7 @@ struct State {
     volumes: Vec<f64>,
     flow: Flow,
     drive: ClampDrive,
-    air: HeldAir,
+    air: AirState,
     /// Displacement of each body, m.
     displacement: Vec<[f64; 3]>,
     /// Clamp travel, m.
@@ -127,31 +127,31 @@ impl Implicit {
             mesh,
             couplings: WallCouplings::default(),
         };
-        scheme.fit_mesh();
+        scheme.update_mesh();
         scheme.state.air = scheme.first_air();
         Ok(scheme)
     }
 
     /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
-        let limit = self.state.drive.within(limit, self.state.travel);
+        let limit = self.state.drive.bounded_by_stage(limit, self.state.travel);
         if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
         {
             return Err(self.failure("the bodies have met and cannot go on"));
         }
         let begun = Instant::now();
-        self.fit_mesh();
+        self.update_mesh();
         self.clock.add(Stage::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
-        let mut guess = self.state.flow.clone();
+        let mut start = self.state.flow.clone();
         for attempt in 0..ATTEMPTS {
-            let dt = self.length(limit).min(longest);
+            let dt = self.step_length(limit).min(longest);
             if !(dt > 0.0 && dt.is_finite()) {
                 return Err(self
                     .failure("nothing moves and no time is left: there is no time step to take"));
             }
             let solved = self
-                .solve(dt, limit, longest, &mut guess)
+                .solve(dt, limit, longest, &mut start)
                 .map_err(|why| self.failure(&why))?;
             let shorter = solved.dries_too_fast();
             dries = shorter.is_some();
@@ -162,8 +162,8 @@ impl Implicit {
             let flow = &solved.flow;
             let speed = fastest(flow, self.setup.settings.cfl).max(flow.speed.abs());
             let crossed = speed * solved.dt;
-            if crossed <= EXCESS * self.setup.settings.cfl {
-                return Ok(self.follow(solved, limit));
+            if crossed <= CFL_EXCESS * self.setup.settings.cfl {
+                return Ok(self.complete_step(solved, limit));
             }
             longest = solved.dt * self.setup.settings.cfl / crossed;
             // A pocket without air collapses by the same volume in a step of any length.
@@ -171,33 +171,33 @@ impl Implicit {
                 longest = longest.min(0.5 * solved.dt);
             }
         }
-        Err(self.no_step(dries))
+        Err(self.no_acceptable_length(dries))
     }
 
     /// Time in which the flow of the last step, as it grows, crosses a cell, s.
-    fn crossing(&self) -> f64 {
+    fn cell_crossing_time(&self) -> f64 {
         let fastest = self.state.fastest.max(self.state.flow.speed.abs());
         1.0 / (self.state.growth * fastest)
     }
 
     /// Length of the next step by the flow of the last, s.
-    fn length(&self, limit: StepLimit) -> f64 {
+    fn step_length(&self, limit: StepLimit) -> f64 {
         let (state, liquid, units) = (&self.state, &self.setup.liquid, self.setup.units);
         let cfl = self.setup.settings.cfl;
-        let mut dt = (cfl * self.crossing()).min(limit.time_s);
+        let mut dt = (cfl * self.cell_crossing_time()).min(limit.time_s);
         // The viscosity of a liquid that cures is that of the middle of the step.
         if let Some(cure) = &liquid.cure {
-            dt = dt.min(cure.steady(state.time, THICKENS));
+            dt = dt.min(cure.steady(state.time, LN_VISCOSITY_STEP));
         }
         if let Some(wet) = &state.wet {
-            dt = dt.min(wet.steady());
+            dt = dt.min(wet.steady_time());
         }
         // From rest, weight sets the speed.
         if state.steps == 0 {
-            dt = dt.min((2.0 * cfl / self.setup.pull()).sqrt());
+            dt = dt.min((2.0 * cfl / self.setup.gravity_acceleration()).sqrt());
         }
         // From rest, a clamp that lets go is no faster than it can; how fast it is with air behind it, no step before tells.
-        if let Some(speed) = state.drive.giving_way() {
+        if let Some(speed) = state.drive.retreat_speed() {
             dt = dt.min(cfl * units.cell_m / speed);
         }
         // From rest, no meniscus outruns tension over viscosity; what holds one is known by the speed of the step before.
@@ -207,7 +207,7 @@ impl Implicit {
                 _ => GROWTH * state.dt,
             });
         }
-        match self.left(limit) {
+        match self.travel_left(limit) {
             left if left > 0.0 => dt.min(left / state.flow.speed.max(f64::MIN_POSITIVE)),
             // The clamp is where it was to go.
             _ => dt,

@@ -32,7 +32,7 @@ impl Implicit {
             }
         }
         let profile = Profile::new(&self.setup.lattice, field);
-        let cell_m = self.setup.place.cell_m;
+        let cell_m = self.setup.origin.cell_m;
         let velocities = |&pore: &usize| {
             let velocities = profile.of_pore(pore);
             velocities.map(|velocity| velocity.map(|v| (v * cell_m) as f32))
@@ -43,7 +43,7 @@ impl Implicit {
 
     /// Positions and volumes of the points alone, and their pores.
     pub(super) fn filled_voxels(&self) -> (LiquidState, Vec<usize>) {
-        let (mesh, place) = (&self.mesh, self.setup.place);
+        let (mesh, origin) = (&self.mesh, self.setup.origin);
         let mut state = LiquidState::default();
         let mut shown = Vec::new();
         for pore in 0..mesh.pores.len() {
@@ -56,17 +56,17 @@ impl Implicit {
             let cell = mesh.cell(pore);
             let at = mesh.place(cell);
             let low = [
-                at[0] as f64 - mesh.beyond[0] as f64,
+                at[0] as f64 - mesh.ghost_layers[0] as f64,
                 mesh.rows().low(mesh.row(cell)),
-                at[2] as f64 - mesh.beyond[2] as f64,
+                at[2] as f64 - mesh.ghost_layers[2] as f64,
             ];
             for voxel in mesh.voxels(pore) {
                 state.position.push(std::array::from_fn(|a| {
                     let cells =
                         low[a] + mesh.edge(pore, a) * (voxel[a] as f64 + 0.5) / mesh.k as f64;
-                    (place.origin_m[a] + place.cell_m * cells) as f32
+                    (origin.origin_m[a] + origin.cell_m * cells) as f32
                 }));
-                state.volume.push((volume * place.cell_m.powi(3)) as f32);
+                state.volume.push((volume * origin.cell_m.powi(3)) as f32);
             }
         }
         (state, shown)

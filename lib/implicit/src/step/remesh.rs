@@ -15,7 +15,7 @@ pub(super) const MARGIN: usize = 2 * (LARGEST_CFL as usize + 1);
 
 impl Implicit {
     /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
-    pub(super) fn fit_mesh(&mut self) {
+    pub(super) fn update_mesh(&mut self) {
         self.mesh.set_height(self.height);
         let mesh = &self.mesh;
         let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height);
@@ -45,8 +45,8 @@ impl Implicit {
         let old = std::mem::replace(&mut self.mesh, mesh);
         let (state, mesh) = (&mut self.state, &self.mesh);
         state.volumes = remapped_volumes(mesh, &old, &state.volumes);
-        if !state.air.of.is_empty() {
-            state.air.of = remapped_volumes(mesh, &old, &state.air.of);
+        if !state.air.mass.is_empty() {
+            state.air.mass = remapped_volumes(mesh, &old, &state.air.mass);
         }
         state.flow.velocity = remapped_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = remapped_pressures(mesh, &old, &state.flow.pressure);
@@ -54,20 +54,20 @@ impl Implicit {
             wet.water = remapped_volumes(mesh, &old, &wet.water);
             wet.soaked = remapped_volumes(mesh, &old, &wet.soaked);
         }
-        let kept = match self.couplings.is_empty() {
+        let face_map = match self.couplings.is_empty() {
             true => FaceMap::default(),
             false => FaceMap::new(mesh, &old),
         };
-        self.find_walls(&kept);
+        self.rebuild_walls(&face_map);
     }
 
     /// Finds what the walls of the mesh do, but for faces that are `kept` from the one before.
-    pub(super) fn find_walls(&mut self, kept: &FaceMap) {
+    pub(super) fn rebuild_walls(&mut self, face_map: &FaceMap) {
         let (setup, mesh) = (&self.setup, &self.mesh);
         let water = setup.liquid.water.as_ref();
-        self.walls = water.map(|_| Walls::new(&setup.lattice, mesh, &setup.take));
-        self.couplings = WallCouplings::new(&setup.channels(mesh), kept, &self.couplings);
-        self.edges = Edges::new(mesh, &setup.lattice, kept, &self.edges);
+        self.walls = water.map(|_| Walls::new(&setup.lattice, mesh, &setup.absorbs));
+        self.couplings = WallCouplings::new(&setup.channels(mesh), face_map, &self.couplings);
+        self.edges = Edges::new(mesh, &setup.lattice, face_map, &self.edges);
     }
 
     /// Rows of the grid that hold liquid, and those of the gap.

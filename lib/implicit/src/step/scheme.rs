@@ -168,7 +168,7 @@ impl Scheme for Implicit {
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement;
         (self.mesh, self.height) = (mesh, height);
-        self.find_walls(&FaceMap::default());
+        self.rebuild_walls(&FaceMap::default());
         Ok(())
     }
 
@@ -186,7 +186,10 @@ impl Scheme for Implicit {
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let mut counts = self.air_counts();
         if self.setup.limited {
-            counts.push(("steps above the pressure limit", self.state.drive.broken.0));
+            counts.push((
+                "steps above the pressure limit",
+                self.state.drive.violations.0,
+            ));
         }
         counts.push(("steps that did not settle", self.state.unsettled));
         counts
@@ -204,14 +207,14 @@ impl Scheme for Implicit {
         /// Part of the steps that may be so: a few settle late in sound runs.
         const MOST: f64 = 0.1;
         let steps = self.state.steps;
-        let (above, pressure) = self.state.drive.broken;
+        let (above, pressure) = self.state.drive.violations;
         let mut said: Vec<String> = [
             (
                 self.state.unsettled,
                 "the passes did not settle (viscosity, compression or torn liquid): a lower speed of the clamp or a smaller integrator.cfl may help",
             ),
             (
-                self.state.air.astray,
+                self.state.air.unsettled,
                 "the passes did not find the pressure of the air that is closed off",
             ),
             (

@@ -8,9 +8,9 @@ use super::drive::ClampDrive;
 use super::remesh::MARGIN;
 use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
-use crate::liquid::{Place, deposit};
+use crate::liquid::{GridOrigin, deposit};
 use crate::settings::Settings;
-use crate::system::{Channels, STILL, Scales};
+use crate::system::{Channels, REST_DISTANCE, Scales};
 
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ pub(super) struct Setup {
     pub(super) chords: Chords,
     pub(super) liquid: Liquid,
     pub(super) units: Units,
-    pub(super) place: Place,
+    pub(super) origin: GridOrigin,
     gravity: [f64; 3],
     /// Influence length of the walls, cells; infinite without friction.
     pub(super) influence_length: f64,
@@ -56,7 +56,7 @@ pub(super) struct Setup {
     /// Air that has pressures where it is closed off.
     pub(super) gas: Option<Gas>,
     /// Bodies that take water.
-    pub(super) take: Vec<bool>,
+    pub(super) absorbs: Vec<bool>,
     /// How each body moves.
     pub(super) motions: Vec<Motion>,
 }
@@ -79,15 +79,15 @@ impl Setup {
             cell_m,
             viscosity: scene.liquid.viscosity.at(speed / cell_m),
         };
-        let place = Place {
+        let origin = GridOrigin {
             cell_m,
             origin_m: [scene.grid.min_m[0], lattice.gap_low_m, scene.grid.min_m[2]],
             flat: scene.dimensions == Dimensions::Two,
         };
         let rows = lattice.rows();
-        let range = rows_of(&scene.points, rows, place);
+        let range = rows_of(&scene.points, rows, origin);
         let mesh = Mesh::whole(&lattice, rows, range);
-        let volumes = deposit(&mesh, &scene.points, place, |point| {
+        let volumes = deposit(&mesh, &scene.points, origin, |point| {
             point.volume / cell_m.powi(3)
         })?;
         let setup = Self {
@@ -96,7 +96,7 @@ impl Setup {
             lattice,
             liquid: scene.liquid.clone(),
             units,
-            place,
+            origin,
             gravity: scene.gravity,
             influence_length: scene.wall.influence_length() / cell_m,
             points_per_cell: scene.points.position.len() as f64 / volumes.iter().sum::<f64>(),
@@ -112,7 +112,7 @@ impl Setup {
                 .clamp
                 .is_some_and(|clamp| clamp.max_pressure.is_some()),
             motions: scene.bodies.iter().map(|body| body.motion).collect(),
-            take: (scene.bodies.iter())
+            absorbs: (scene.bodies.iter())
                 .map(|body| {
                     let water = scene.liquid.water.as_ref();
                     water.is_some_and(|water| water.enters(&body.name))
@@ -149,7 +149,7 @@ impl Setup {
         if points.velocity.iter().any(|v| *v != [0.0; 3]) {
             for axis in 0..3 {
                 let moment = |point: &Seed| point.volume * point.velocity[axis] / cell_m.powi(4);
-                moments.push(deposit(mesh, points, self.place, moment)?);
+                moments.push(deposit(mesh, points, self.origin, moment)?);
             }
         }
         let velocity = |(index, face): (usize, &Face)| {
@@ -162,7 +162,7 @@ impl Setup {
                 _ => 0.0,
             };
             match axis {
-                1 => own - mesh.frame(&self.lattice, index) * speed,
+                1 => own - mesh.grid_velocity(&self.lattice, index) * speed,
                 _ => own,
             }
         };
@@ -185,7 +185,7 @@ impl Setup {
     }
 
     /// Whether the viscosity depends on the flow.
-    pub(super) fn varies(&self) -> bool {
+    pub(super) fn is_non_newtonian(&self) -> bool {
         !matches!(self.liquid.viscosity, Viscosity::Newtonian(_))
     }
 
@@ -195,7 +195,7 @@ impl Setup {
         let density = self.liquid.density;
         Scales {
             dt,
-            slow: STILL * self.settings.cfl / dt,
+            slow: REST_DISTANCE * self.settings.cfl / dt,
             inertia: density * h * h / (eta * dt),
             gravity: self.gravity.map(|g| density * h * g / eta),
             compressibility: eta / self.liquid.tait.bulk_modulus,
@@ -204,7 +204,7 @@ impl Setup {
     }
 
     /// Acceleration by weight, cells/s2.
-    pub(super) fn pull(&self) -> f64 {
+    pub(super) fn gravity_acceleration(&self) -> f64 {
         self.gravity.iter().map(|g| g * g).sum::<f64>().sqrt() / self.units.cell_m
     }
 
@@ -220,11 +220,11 @@ impl Setup {
 }
 
 /// Rows that hold points, those of the gap, and some around them.
-fn rows_of(points: &Points, rows: Rows, place: Place) -> Range<usize> {
+fn rows_of(points: &Points, rows: Rows, origin: GridOrigin) -> Range<usize> {
     let gap = [0.0, rows.height];
     let [low, high] = points.seeds().fold(gap, |[low, high], point| {
-        let y = (point.position[1] - place.origin_m[1]) / place.cell_m;
-        let half = place.half(point.volume)[1];
+        let y = (point.position[1] - origin.origin_m[1]) / origin.cell_m;
+        let half = origin.half(point.volume)[1];
         [low.min(y - half), high.max(y + half)]
     });
     let sides: Vec<f64> = (0..rows.len()).map(|row| rows.low(row)).collect();

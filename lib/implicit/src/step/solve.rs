@@ -25,7 +25,7 @@ pub(super) struct Solved {
     /// The air that is closed off, and whether it has the pressures of its volumes.
     pub(super) air: Option<(Air, bool)>,
     /// Whether the step ends the travel of the clamp.
-    pub(super) arrives: bool,
+    pub(super) ends_travel: bool,
     /// Of a liquid that loses water: what it loses.
     pub(super) exchange: Option<WaterExchange>,
 }
@@ -37,33 +37,33 @@ impl Implicit {
         &mut self,
         middle: &MidStep,
         drive: Drive,
-        guess: &mut Flow,
+        start: &mut Flow,
     ) -> Result<Solved, String> {
         let mut clock = take(&mut self.clock);
-        let solved = self.in_passes(middle, drive, guess, &mut clock);
+        let solved = self.iterate(middle, drive, start, &mut clock);
         self.clock = clock;
         solved
     }
 
-    fn in_passes(
+    fn iterate(
         &self,
         middle: &MidStep,
         drive: Drive,
-        guess: &mut Flow,
+        start: &mut Flow,
         clock: &mut Clock,
     ) -> Result<Solved, String> {
         let (setup, mesh, dt) = (&self.setup, &self.mesh, middle.dt);
         let fractions = &middle.fractions;
         let mut torn = vec![false; mesh.pores.len()];
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
-        let mut air = self.closed_off(&unknowns, fractions, dt);
-        let mut viscosity_iteration = self.viscosity_iteration(middle.viscosity, guess);
-        let mut flow = take(guess);
+        let mut air = self.air_pockets(&unknowns, fractions, dt);
+        let mut viscosity_iteration = self.viscosity_iteration(middle.viscosity, start);
+        let mut flow = take(start);
         let (mut forces, mut iterations) = (Vec::new(), 0);
-        let (mut settled, mut astray) = (false, false);
+        let (mut settled, mut air_unsettled) = (false, false);
         for _ in 0..PASSES {
             let begun = Instant::now();
-            let lost = middle.lost.as_ref();
+            let lost = middle.water_loss.as_ref();
             let thick = lost
                 .map(|lost| (viscosity_iteration.used).thickened(mesh, &self.edges, &lost.factor));
             let viscosities = thick.as_ref().unwrap_or(&viscosity_iteration.used);
@@ -73,11 +73,11 @@ impl Implicit {
             let holds;
             let driven = (middle, drive);
             (flow, forces, holds) =
-                self.solve_pass(driven, &unknowns, viscosities, ends, &last, clock)?;
+                self.solve_once(driven, &unknowns, viscosities, ends, &last, clock)?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;
-            if setup.varies() {
+            if setup.is_non_newtonian() {
                 let rates = self
                     .field(&flow)
                     .rates(setup.liquid.shear_rate, viscosity_iteration.slip);
@@ -89,36 +89,36 @@ impl Implicit {
                 unknowns = Unknowns::new(mesh, fractions, &torn);
                 settled = false;
             }
-            astray = match (&mut air, setup.gas) {
-                (Some(air), Some(gas)) => !air.settle(gas, &flow.pressure, dt),
+            air_unsettled = match (&mut air, setup.gas) {
+                (Some(air), Some(gas)) => !air.update_tangents(gas, &flow.pressure, dt),
                 _ => false,
             };
-            if settled && !astray {
+            if settled && !air_unsettled {
                 break;
             }
         }
         flow.iterations = iterations;
-        guess.clone_from(&flow);
+        start.clone_from(&flow);
         Ok(Solved {
             dt,
             flow,
             full: middle.full.clone(),
             forces,
             settled,
-            air: air.map(|air| (air, !astray)),
-            arrives: false,
-            exchange: middle.lost.clone(),
+            air: air.map(|air| (air, !air_unsettled)),
+            ends_travel: false,
+            exchange: middle.water_loss.clone(),
         })
     }
 
     /// The search for the viscosity of the flow of a step, which begins with that of the flow `guess`; `viscosity` is that of
     /// no flow.
-    fn viscosity_iteration(&self, viscosity: f64, guess: &Flow) -> ViscosityIteration<'_> {
+    fn viscosity_iteration(&self, viscosity: f64, start: &Flow) -> ViscosityIteration<'_> {
         let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length);
         let factor = viscosity / self.setup.units.viscosity;
-        let used = match self.setup.varies() && self.state.steps > 0 {
+        let used = match self.setup.is_non_newtonian() && self.state.steps > 0 {
             true => {
-                let rates = self.field(guess).rates(liquid.shear_rate, slip);
+                let rates = self.field(start).rates(liquid.shear_rate, slip);
                 Viscosities::of(&rates, liquid, factor, slip)
             }
             false => Viscosities::constant(&self.mesh, viscosity),
@@ -139,13 +139,13 @@ impl Implicit {
 
     /// Solves once with these viscosities, from the flow `guess`: the flow, the forces on bodies, and whether compression obeys
     /// its law.
-    fn solve_pass(
+    fn solve_once(
         &self,
         (middle, drive): (&MidStep, Drive),
         unknowns: &Unknowns,
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
-        guess: &Flow,
+        start: &Flow,
         clock: &mut Clock,
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
@@ -178,21 +178,21 @@ impl Implicit {
             pressure: &state.flow.pressure,
             full,
             heights: [self.height, middle.end],
-            times: [dt, self.crossing()],
+            times: [dt, self.cell_crossing_time()],
         };
-        let mut carried = compression.released(&unknowns.pores, &guess.pressure);
-        if let Some(exchange) = &middle.lost {
+        let mut excess_rate = compression.release_rates(&unknowns.pores, &start.pressure);
+        if let Some(exchange) = &middle.water_loss {
             // What full pores gain in the step, those with a pressure hold more.
             let pores = unknowns.pores.iter().map(|&pore| pore as usize);
-            for (carried, pore) in carried.iter_mut().zip(pores).filter(|of| full[of.1]) {
-                *carried += exchange.gained[pore] / dt;
+            for (excess_rate, pore) in excess_rate.iter_mut().zip(pores).filter(|of| full[of.1]) {
+                *excess_rate += exchange.gained[pore] / dt;
             }
         }
-        let flow = solve(&problem, &carried, drive, guess, &self.solver, clock)
+        let flow = solve(&problem, &excess_rate, drive, start, &self.solver, clock)
             .map_err(|error| self.unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());
-        let holds = compression.holds(&unknowns.pores, &guess.pressure, &flow.pressure);
+        let holds = compression.obeys_law(&unknowns.pores, &start.pressure, &flow.pressure);
         clock.add(Stage::Forces, begun);
         Ok((flow, forces, holds))
     }

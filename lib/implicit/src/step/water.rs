@@ -5,7 +5,7 @@ use physics::{Array, Saved, WaterState};
 use super::exchange::WaterExchange;
 use super::setup::Setup;
 use super::solve::Solved;
-use super::{Implicit, THICKENS};
+use super::{Implicit, LN_VISCOSITY_STEP};
 use crate::geometry::DRIFT;
 
 /// Names of the arrays of a checkpoint that hold the water in the liquid, in the walls of each pore, and the account.
@@ -24,15 +24,15 @@ pub(super) struct WaterBalance {
     in_walls: f64,
     pub(super) left: f64,
     /// Change of ln(viscosity) per time where the liquid dries, 1/s.
-    pace: f64,
+    ln_viscosity_rate: f64,
     /// Mean of 1/factor of the viscosity over the liquid.
     pub(super) fluidity: f64,
 }
 
 impl WaterBalance {
     /// For how long the loss of water leaves the viscosity as it is, s.
-    pub(super) fn steady(&self) -> f64 {
-        THICKENS / self.pace
+    pub(super) fn steady_time(&self) -> f64 {
+        LN_VISCOSITY_STEP / self.ln_viscosity_rate
     }
 
     /// Water found nowhere, over that at the start.
@@ -49,7 +49,7 @@ impl WaterBalance {
             self.soaked[pore] += taken;
         }
         self.in_walls += exchange.taken.iter().sum::<f64>();
-        self.pace = exchange.change / dt;
+        self.ln_viscosity_rate = exchange.change / dt;
         self.fluidity = exchange.fluidity;
     }
 }
@@ -59,7 +59,7 @@ impl Solved {
     pub(super) fn dries_too_fast(&self) -> Option<f64> {
         let change = self.exchange.as_ref()?.change;
         // Half above what steps aim at, so few are taken again.
-        (change > 1.5 * THICKENS).then(|| self.dt * THICKENS / change)
+        (change > 1.5 * LN_VISCOSITY_STEP).then(|| self.dt * LN_VISCOSITY_STEP / change)
     }
 }
 
@@ -77,7 +77,7 @@ impl Setup {
             water,
             in_walls: 0.0,
             left: 0.0,
-            pace: 0.0,
+            ln_viscosity_rate: 0.0,
             fluidity: 1.0,
         })
     }
@@ -110,7 +110,13 @@ impl Implicit {
         let Some(wet) = &self.state.wet else {
             return Vec::new();
         };
-        let account = [wet.start, wet.in_walls, wet.left, wet.pace, wet.fluidity];
+        let account = [
+            wet.start,
+            wet.in_walls,
+            wet.left,
+            wet.ln_viscosity_rate,
+            wet.fluidity,
+        ];
         vec![
             (WATER, Array::F64(wet.water.clone())),
             (SOAKED, Array::F64(wet.soaked.clone())),
@@ -132,7 +138,7 @@ impl Implicit {
         };
         let (water, soaked) = (saved.f64s(WATER)?, saved.f64s(SOAKED)?);
         let account = saved.f64s(ACCOUNT)?;
-        let &[start, in_walls, left, pace, fluidity] = account else {
+        let &[start, in_walls, left, ln_viscosity_rate, fluidity] = account else {
             return Err("the checkpoint's account of water is not that of this scheme".into());
         };
         let found = WaterBalance {
@@ -141,14 +147,17 @@ impl Implicit {
             start,
             in_walls,
             left,
-            pace,
+            ln_viscosity_rate,
             fluidity,
         };
         let counts = |x: &f64| (0.0..=f64::MAX).contains(x);
         let held = |(&water, &volume): (&f64, &f64)| (-DRIFT..=volume + DRIFT).contains(&water);
         let sound = [water.len(), soaked.len()] == [volumes.len(); 2]
             && water.iter().zip(volumes).all(held)
-            && soaked.iter().chain(&[in_walls, left, pace]).all(counts)
+            && soaked
+                .iter()
+                .chain(&[in_walls, left, ln_viscosity_rate])
+                .all(counts)
             && start == wet.start
             && fluidity > 0.0
             && fluidity <= 1.0

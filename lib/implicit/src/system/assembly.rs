@@ -14,7 +14,7 @@ use crate::geometry::{Lattice, Mesh, RowKind};
 
 /// Friction over viscosity of liquid that touches nothing, so that it has a velocity: with a thousand times as much forces
 /// differ by less than 0.1 %.
-const FREE: f64 = 1e-7;
+const FREE_FRICTION: f64 = 1e-7;
 
 /// What multiplies the terms of a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -100,17 +100,22 @@ impl Problem<'_> {
         let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
         let friction = weights[0] * coupling.friction[0] + weights[1] * coupling.friction[1];
-        let drag = self.fronts.drag.get(face).copied().unwrap_or_default();
-        let mut own = friction + drag + self.scales.inertia * self.masses[face] + FREE;
+        let drag = self
+            .fronts
+            .contact_friction
+            .get(face)
+            .copied()
+            .unwrap_or_default();
+        let mut own = friction + drag + self.scales.inertia * self.masses[face] + FREE_FRICTION;
         let number = |face: usize| self.unknowns.face(face);
         for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
             let stiffness = self.stiffness(pore);
             if stiffness == 0.0 {
                 continue;
             }
-            stretching(self.mesh, face, up, |pull| {
-                let weight = stiffness * pull.weight;
-                match pull.other.map(number) {
+            stretching(self.mesh, face, up, |term| {
+                let weight = stiffness * term.weight;
+                match term.other.map(number) {
                     None => own += weight,
                     Some(None) => {}
                     Some(Some(other)) => {
@@ -129,7 +134,7 @@ impl Problem<'_> {
                 .copied()
                 .unwrap_or(1.0);
             let eta = thick * self.edge_stiffness([face, edge.next as usize]);
-            let [shear, length] = edge.measured(self.mesh, face);
+            let [shear, length] = edge.geometry(self.mesh, face);
             own += eta * shear;
             entries.add(next, -eta * shear);
             let across = edge.across.map(|face| face as usize);
@@ -141,27 +146,27 @@ impl Problem<'_> {
             }
         }
         entries.add(row, own);
-        self.add_slowing(face, entries);
+        self.add_dynamic_angle(face, entries);
     }
 
     /// Right-hand sides of the momenta, each of all faces with a velocity: known, per closing speed, and the part of what is known
     /// that stands (weight, menisci, gas); known force on the body that closes the gap, by the inertia and the weight of the
     /// liquid that it carries along; and what of those known and of those per closing speed only makes thick liquid go along
     /// with what moves.
-    pub(crate) fn momenta(&self) -> [Vec<f64>; 6] {
+    pub(crate) fn right_hand_sides(&self) -> [Vec<f64>; 6] {
         let sides: Vec<[f64; 6]> = (self.unknowns.faces.par_iter())
-            .map(|&face| self.force(face as usize))
+            .map(|&face| self.right_hand_side(face as usize))
             .collect();
         std::array::from_fn(|i| sides.iter().map(|side| side[i]).collect())
     }
 
-    /// What pushes a face, as in [`Self::momenta`].
-    fn force(&self, face: usize) -> [f64; 6] {
+    /// What pushes a face, as in [`Self::right_hand_sides`].
+    fn right_hand_side(&self, face: usize) -> [f64; 6] {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
-        let carried = self.masses[face];
-        let inertia = self.scales.inertia * carried;
-        let standing = self.scales.gravity[axis] * carried + self.push(face);
+        let mass = self.masses[face];
+        let inertia = self.scales.inertia * mass;
+        let standing = self.scales.gravity[axis] * mass + self.front_force(face);
         let known = inertia * self.before[face] + standing;
         let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
         let coupling = self.couplings.of(face);
@@ -170,21 +175,21 @@ impl Problem<'_> {
         for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(coupling.sliding) {
             force[0] += weight * own;
             force[1] += weight * closing;
-            force[4] += clinging(eta) * weight * own;
-            force[5] += clinging(eta) * weight * closing;
+            force[4] += clinging_share(eta) * weight * own;
+            force[5] += clinging_share(eta) * weight * closing;
         }
         if axis == 1 && self.lattice.moving.is_some() {
-            let frame = self.mesh.frame(self.lattice, face);
-            force[0] += inertia * frame * self.speed_before;
-            force[1] -= inertia * frame;
-            force[3] = -frame * (force[0] - self.push(face));
+            let grid = self.mesh.grid_velocity(self.lattice, face);
+            force[0] += inertia * grid * self.speed_before;
+            force[1] -= inertia * grid;
+            force[3] = -grid * (force[0] - self.front_force(face));
             for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
                 let stiffness = self.stiffness(pore);
-                stretching(self.mesh, face, up, |pull| {
-                    if pull.other.is_none_or(|other| self.moves(other)) {
-                        let squeezed = stiffness * pull.weight * pull.closing;
+                stretching(self.mesh, face, up, |term| {
+                    if term.other.is_none_or(|other| self.moves(other)) {
+                        let squeezed = stiffness * term.weight * term.closing;
                         force[1] += squeezed;
-                        force[5] += clinging(self.viscosities.pores[pore]) * squeezed;
+                        force[5] += clinging_share(self.viscosities.pores[pore]) * squeezed;
                     }
                 });
             }
@@ -197,24 +202,24 @@ impl Problem<'_> {
         let faces = self.unknowns.faces.iter();
         let pores = 0..self.mesh.pores.len();
         faces
-            .map(|&face| self.resistance_of(face as usize))
+            .map(|&face| self.face_resistance(face as usize))
             .sum::<f64>()
-            + pores.map(|pore| self.squeezed(pore)).sum::<f64>()
+            + pores.map(|pore| self.squeeze_resistance(pore)).sum::<f64>()
     }
 
-    fn resistance_of(&self, face: usize) -> f64 {
+    fn face_resistance(&self, face: usize) -> f64 {
         let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
         let walls = weights[0] * coupling.resistance[0] + weights[1] * coupling.resistance[1];
         if self.mesh.faces[face].axis != 1 {
             return walls;
         }
-        let frame = self.mesh.frame(self.lattice, face);
-        walls + self.scales.inertia * self.masses[face] * frame * frame
+        let grid = self.mesh.grid_velocity(self.lattice, face);
+        walls + self.scales.inertia * self.masses[face] * grid * grid
     }
 
     /// Resistance of a pore of the gap to being squeezed with its faces at rest.
-    fn squeezed(&self, pore: usize) -> f64 {
+    fn squeeze_resistance(&self, pore: usize) -> f64 {
         let stiffness = self.stiffness(pore);
         if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row_of(pore)) != RowKind::Gap {
             return 0.0;
@@ -224,9 +229,9 @@ impl Problem<'_> {
         let up = self.mesh.faces_at(pore, 1, false).len() == 0;
         let faces = self.mesh.faces_at(pore, 1, up);
         for face in faces.filter(|&face| self.moves(face)) {
-            stretching(self.mesh, face, !up, |pull| {
-                if pull.other.is_none_or(|other| self.moves(other)) {
-                    sum += pull.weight * pull.closing * pull.closing;
+            stretching(self.mesh, face, !up, |term| {
+                if term.other.is_none_or(|other| self.moves(other)) {
+                    sum += term.weight * term.closing * term.closing;
                 }
             });
         }
@@ -240,8 +245,8 @@ impl Problem<'_> {
             let face = face as usize;
             let coupling = self.couplings.of(face);
             let weights = self.wall_weights(face);
-            let frame = match self.mesh.faces[face].axis {
-                1 => self.mesh.frame(self.lattice, face) * speed,
+            let grid = match self.mesh.faces[face].axis {
+                1 => self.mesh.grid_velocity(self.lattice, face) * speed,
                 _ => 0.0,
             };
             let walls: f64 = (0..2)
@@ -251,7 +256,7 @@ impl Problem<'_> {
                     weights[half] * (own * own / coupling.friction[half] - 2.0 * own * u)
                 })
                 .sum();
-            walls - self.scales.inertia * self.masses[face] * (u + frame).powi(2)
+            walls - self.scales.inertia * self.masses[face] * (u + grid).powi(2)
         };
         self.unknowns.faces.iter().zip(u).map(part).sum()
     }
@@ -273,7 +278,7 @@ impl Problem<'_> {
     }
 
     /// Volume that a pore loses per closing speed.
-    pub(crate) fn closing(&self, pore: usize) -> f64 {
+    pub(crate) fn closing_loss(&self, pore: usize) -> f64 {
         let mesh = self.mesh;
         match mesh.rows().kind(mesh.row_of(pore)) {
             RowKind::Gap => mesh.volume(pore) / mesh.rows().height,
@@ -283,6 +288,6 @@ impl Problem<'_> {
 }
 
 /// Part of a force on liquid of this viscosity over its unit that only makes it go along: what is left is that of the unit.
-fn clinging(viscosity: f64) -> f64 {
+fn clinging_share(viscosity: f64) -> f64 {
     1.0 - 1.0 / viscosity.max(1.0)
 }

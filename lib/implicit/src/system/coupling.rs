@@ -16,7 +16,7 @@ pub(crate) struct WallCoupling<T = f64> {
     /// Sum of 1/H^2 over the axes across the face.
     pub(crate) inverse_width_squared: T,
     /// Whether the height of the gap is part of it.
-    pub(crate) by_gap: bool,
+    pub(crate) depends_on_gap: bool,
     /// Whether there are walls beside it.
     pub(super) walled: bool,
     /// Code of the body that most recently was found beside it.
@@ -43,7 +43,7 @@ impl<T: Copy> WallCoupling<T> {
             area: of(self.area),
             height: of(self.height),
             inverse_width_squared: of(self.inverse_width_squared),
-            by_gap: self.by_gap,
+            depends_on_gap: self.depends_on_gap,
             walled: self.walled,
             body: self.body,
         }

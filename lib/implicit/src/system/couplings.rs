@@ -2,15 +2,15 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
+use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, VoxelPlace, others};
 use crate::liquid::FaceMap;
 
 use super::coupling::WallCoupling;
 
 /// Least effective distance over the open height of a column, so that friction stays finite.
-const LEAST: f64 = 0.1;
+const MIN_DISTANCE: f64 = 0.1;
 /// Least part of the narrowest width that counts where walls stand on both axes: that of a square duct two cells wide.
-const NARROWEST: f64 = 0.85;
+const MIN_DUCT: f64 = 0.85;
 
 /// The links of all faces of a mesh.
 #[derive(Clone, Default)]
@@ -28,25 +28,28 @@ impl WallCouplings {
     }
 
     /// Those of a mesh; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(channels: &Channels, kept: &FaceMap, old: &Self) -> Self {
+    pub(crate) fn new(channels: &Channels, face_map: &FaceMap, old: &Self) -> Self {
         let mesh = channels.mesh;
-        let (inner, clear) = (mesh.inner_faces(), mesh.clear_cells());
+        let (inner, clear) = (mesh.inner_faces(), mesh.wall_free_cells());
         let moving = channels.lattice.moving.is_some();
         let coupling = |face: usize| {
-            let old = kept.whole(face).map(|face| old.0[face]);
-            if let Some(old) = old.filter(|coupling| !coupling.by_gap) {
+            let old = face_map.unchanged(face).map(|face| old.0[face]);
+            if let Some(old) = old.filter(|coupling| !coupling.depends_on_gap) {
                 return old;
             }
-            let (clear, by_gap) = (mesh.is_clear(face, &clear), channels.by_gap(face));
+            let (clear, depends_on_gap) = (
+                mesh.is_wall_free(face, &clear),
+                channels.depends_on_gap(face),
+            );
             match inner[face] {
                 false => WallCoupling::default(),
                 // It is measured before it is used.
-                true if moving && by_gap => WallCoupling {
-                    by_gap,
+                true if moving && depends_on_gap => WallCoupling {
+                    depends_on_gap,
                     walled: !clear,
                     ..WallCoupling::default()
                 },
-                true => channels.coupling(face, clear, by_gap),
+                true => channels.coupling(face, clear, depends_on_gap),
             }
         };
         Self(
@@ -64,7 +67,7 @@ impl WallCouplings {
             .enumerate()
             .for_each(|(face, coupling)| {
                 let mut ends = channels.mesh.faces[face].ends().into_iter();
-                if coupling.by_gap && ends.any(|pore| fractions[pore] > 0.0) {
+                if coupling.depends_on_gap && ends.any(|pore| fractions[pore] > 0.0) {
                     *coupling = channels.coupling(face, !coupling.walled, true);
                 }
             });
@@ -90,7 +93,7 @@ struct Column {
 
 impl Channels<'_> {
     /// Whether the height of the gap is part of the link of a face.
-    fn by_gap(&self, face: usize) -> bool {
+    fn depends_on_gap(&self, face: usize) -> bool {
         let mesh = self.mesh;
         let through = |pore: usize| {
             let place = mesh.place(mesh.cell(pore));
@@ -99,13 +102,13 @@ impl Channels<'_> {
                 .filter_map(|voxel| mesh.lattice_place(self.lattice, place, voxel))
                 .any(|place| self.chords.through_gap(self.lattice, place))
         };
-        mesh.is_by_gap(face) || mesh.faces[face].ends().into_iter().any(through)
+        mesh.touches_gap(face) || mesh.faces[face].ends().into_iter().any(through)
     }
 
-    /// The link of a face that is `clear` of walls or not, and `by_gap` or not.
-    fn coupling(&self, face: usize, clear: bool, by_gap: bool) -> WallCoupling<f32> {
+    /// The link of a face that is `clear` of walls or not, and `depends_on_gap` or not.
+    fn coupling(&self, face: usize, clear: bool, depends_on_gap: bool) -> WallCoupling<f32> {
         let mut coupling = WallCoupling::<f64> {
-            by_gap,
+            depends_on_gap,
             ..WallCoupling::default()
         };
         let f = self.mesh.faces[face];
@@ -186,7 +189,7 @@ impl Channels<'_> {
                     .filter(|_| open && is_wall(code))
                 {
                     let apart = 0.5 * (column.height * edges[t] + mesh.cell_edge(next, t));
-                    coupling.add(half, part / apart, self.sliding(code, face, axis));
+                    coupling.add(half, part / apart, self.wall_velocity(code, face, axis));
                 }
             }
             if !ends.iter().any(|&code| is_wall(code)) {
@@ -195,20 +198,20 @@ impl Channels<'_> {
             let between = ends.iter().all(|&code| is_wall(code));
             for (code, (i, up)) in ends.into_iter().zip(corner).filter(|end| is_wall(end.0)) {
                 let at = (cell, voxel(half, i));
-                let near = mesh.beside_steps(at, [t, across], up);
-                let distance = edges[t] * self.distance(&column, between, near);
+                let step_proximity = mesh.step_proximity(at, [t, across], up);
+                let distance = edges[t] * self.distance(&column, between, step_proximity);
                 let lowest = if axis == 1 {
                     1.0
                 } else {
-                    mesh.lowest(f.low as usize)
+                    mesh.lowest_row(f.low as usize)
                 };
                 // A re-entrant edge at the voxel would be a step within the cell.
-                let factor = match near < 1.0 {
+                let factor = match step_proximity < 1.0 {
                     true => 1.0,
-                    false => (lowest * mesh.reentrant(at, [t, across], up)).exp(),
+                    false => (lowest * mesh.ln_reentrant_factor(at, [t, across], up)).exp(),
                 };
                 let friction = factor * part / (distance + self.influence_length);
-                coupling.add(half, friction, self.sliding(code, face, axis));
+                coupling.add(half, friction, self.wall_velocity(code, face, axis));
                 coupling.area += part;
                 let shared = if between { 0.5 } else { 1.0 };
                 coupling.height += part * shared * column.height * edges[t];
@@ -218,10 +221,10 @@ impl Channels<'_> {
     }
 
     /// Width of the channel along an axis at a voxel, cells.
-    fn width(&self, place: Option<Place>, axis: usize) -> f64 {
+    fn width(&self, place: Option<VoxelPlace>, axis: usize) -> f64 {
         let k = self.mesh.k as f64;
         let gap = self.mesh.rows().height * k;
-        let length = |place: Place| self.chords.length(self.lattice, place, axis, gap);
+        let length = |place: VoxelPlace| self.chords.length(self.lattice, place, axis, gap);
         (place.map_or(f64::INFINITY, length) / k).max(0.25)
     }
 
@@ -237,7 +240,7 @@ impl Channels<'_> {
     ///
     /// A column between two walls has the mean g H/6, so that d = H/6. Beside steps, where flow is not that between plates,
     /// the defect counts in part or not, by `near`.
-    fn distance(&self, column: &Column, between: bool, near: f64) -> f64 {
+    fn distance(&self, column: &Column, between: bool, step_proximity: f64) -> f64 {
         let h1 = column.height;
         let [along, across] = column.widths;
         if between {
@@ -246,18 +249,18 @@ impl Channels<'_> {
         let width = match self.mesh.k {
             1 => {
                 let least = along.min(across).min(2.0 * h1.max(0.5));
-                let duct = (along.powi(-2) + (1.0 - near) * across.powi(-2)).powf(-0.5);
-                duct.max(NARROWEST * least)
+                let duct = (along.powi(-2) + (1.0 - step_proximity) * across.powi(-2)).powf(-0.5);
+                duct.max(MIN_DUCT * least)
             }
             _ => along,
         };
         let defect = (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0) / (3.0 * width);
-        let distance = 0.5 * h1 - h1 * h1 / (3.0 * width) + (1.0 - near) * defect;
-        distance.max(LEAST * h1)
+        let distance = 0.5 * h1 - h1 * h1 / (3.0 * width) + (1.0 - step_proximity) * defect;
+        distance.max(MIN_DISTANCE * h1)
     }
 
     /// Velocity of a wall along an axis against the row of a face: its own, cells/s, and per closing speed.
-    fn sliding(&self, code: u8, face: usize, axis: usize) -> [f64; 2] {
+    fn wall_velocity(&self, code: u8, face: usize, axis: usize) -> [f64; 2] {
         let body = usize::from(code - 1);
         let own = self.lattice.slide[body][axis];
         if axis != 1 {
@@ -265,7 +268,7 @@ impl Channels<'_> {
         }
         [
             0.0,
-            self.lattice.speed_of(body) - self.mesh.frame(self.lattice, face),
+            self.lattice.body_speed(body) - self.mesh.grid_velocity(self.lattice, face),
         ]
     }
 }

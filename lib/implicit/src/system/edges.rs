@@ -19,7 +19,7 @@ pub(crate) struct Edge {
     /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
     open: [u8; 2],
     /// The same of the faces across, along the axis of the face.
-    aside: [u8; 2],
+    across_open: [u8; 2],
     t: u8,
 }
 
@@ -28,14 +28,16 @@ impl Edge {
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
         let [low, high] = self.across.map(|face| u[face as usize]);
-        let across = (high - low) / apart(mesh, self.aside, [f.low, f.high], f.axis);
+        let across =
+            (high - low) / distance_between(mesh, self.across_open, [f.low, f.high], f.axis);
         (self.slope(mesh, face, u) + across).abs()
     }
 
     /// Slope across it of the velocity of the face by the velocities `u`.
     pub(super) fn slope(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let lows = [face, self.next as usize].map(|face| mesh.faces[face].low);
-        let along = (u[self.next as usize] - u[face]) / apart(mesh, self.open, lows, self.t);
+        let along =
+            (u[self.next as usize] - u[face]) / distance_between(mesh, self.open, lows, self.t);
         along * f64::from(self.shared.signum())
     }
 
@@ -56,18 +58,20 @@ impl Edge {
 
     /// Area over distance between a face and the next one, cells, and the length of the edge, negative where the next face
     /// lies on the low side.
-    pub(crate) fn measured(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
+    pub(crate) fn geometry(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
         let f = mesh.faces[face];
         let (axis, along) = (usize::from(f.axis), self.axis(mesh, face));
         let edge = |pore: u32, a: usize| mesh.edge(pore as usize, a);
         let next = mesh.faces[self.next as usize].low;
-        let distance = apart(mesh, self.open, [f.low, next], self.t);
+        let distance = distance_between(mesh, self.open, [f.low, next], self.t);
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
         let length = edge(f.low, along);
         let lowest = match along {
             _ if self.factor == 1.0 => 1.0,
             1 => 1.0,
-            _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
+            _ => mesh
+                .lowest_row(f.low as usize)
+                .min(mesh.lowest_row(next as usize)),
         };
         let factor = match lowest {
             1.0 => f64::from(self.factor),
@@ -80,7 +84,7 @@ impl Edge {
 }
 
 /// Distance along an axis between the middles of so many open voxels in two pores that meet, cells.
-fn apart(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
+fn distance_between(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
     let [low, high] =
         [0, 1].map(|i| f64::from(open[i]) * mesh.edge(pores[i] as usize, usize::from(axis)));
     0.5 * (low + high) / mesh.k as f64
@@ -95,9 +99,9 @@ pub(crate) struct Edges {
 
 impl Edges {
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &FaceMap, old: &Self) -> Self {
+    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, face_map: &FaceMap, old: &Self) -> Self {
         let mut now = vec![None; old.start.len()];
-        for (face, old_face) in kept.0.iter().enumerate() {
+        for (face, old_face) in face_map.0.iter().enumerate() {
             if let Some((old_face, _)) = old_face {
                 now[*old_face as usize] = Some(face as u32);
             }
@@ -111,17 +115,17 @@ impl Edges {
             })
         };
         let inner = mesh.inner_faces();
-        let clear = mesh.clear_cells();
+        let clear = mesh.wall_free_cells();
         let add = |face: usize, edges: &mut Vec<Edge>| {
             let first = edges.len();
-            let known = kept.whole(face).is_some_and(|face| {
+            let known = face_map.unchanged(face).is_some_and(|face| {
                 let mut old = old.of(face).iter().map(renumbered);
                 old.all(|edge| edge.map(|edge| edges.push(edge)).is_some())
             });
             if !known {
                 edges.truncate(first);
                 if inner[face] {
-                    add_edges(edges, mesh, lattice, face, mesh.is_clear(face, &clear));
+                    add_edges(edges, mesh, lattice, face, mesh.is_wall_free(face, &clear));
                 }
             }
             (edges.len() - first) as u32
@@ -187,7 +191,7 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
     let axis = usize::from(mesh.faces[face].axis);
     let key = |edge: &Edge| {
         let factor = edge.factor.to_bits();
-        (edge.next, edge.across, edge.open, edge.aside, factor)
+        (edge.next, edge.across, edge.open, edge.across_open, factor)
     };
     for t in others(axis)
         .into_iter()
@@ -231,7 +235,7 @@ fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
         factor: 1.0,
         shared: if up { k as i8 } else { -(k as i8) },
         open: [k; 2],
-        aside: [k; 2],
+        across_open: [k; 2],
         t: t as u8,
     })
 }
@@ -269,8 +273,8 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
         (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, far, r);
         at
     };
-    let low = mesh.pore_with(beside[0], voxel(0))?;
-    let high = mesh.pore_with(beside[1], voxel(1))?;
+    let low = mesh.pore_at(beside[0], voxel(0))?;
+    let high = mesh.pore_at(beside[1], voxel(1))?;
     let next = mesh.face_between(low, high, axis)?;
     let joined = |near: usize, far: usize| match up {
         true => mesh.face_between(near, far, t),
@@ -282,7 +286,8 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
         at[t] = near;
         at
     };
-    let reentrant = |half: usize| mesh.reentrant((cells[half], own_voxel(half)), [t, across], up);
+    let reentrant =
+        |half: usize| mesh.ln_reentrant_factor((cells[half], own_voxel(half)), [t, across], up);
     let factor = (0.5 * (0..2).map(reentrant).sum::<f64>()).exp();
     Some(Edge {
         next: next as u32,
@@ -290,7 +295,7 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
         factor: factor as f32,
         shared: if up { 1 } else { -1 },
         open: [own, height(next, t, far)],
-        aside: [
+        across_open: [
             height(beside_low, axis, k - 1),
             height(beside_high, axis, 0),
         ],

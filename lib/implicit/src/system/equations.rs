@@ -23,9 +23,9 @@ pub(super) struct Equations {
     /// Volumes that pores lose per closing speed, and at the speed that is given.
     pub(super) source: Vec<f64>,
     volume_source: Vec<f64>,
-    carried: Vec<f64>,
+    excess_rate: Vec<f64>,
     /// Known force on the body that closes the gap.
-    pub(super) carried_force: f64,
+    pub(super) known_body_force: f64,
 }
 
 impl Equations {
@@ -33,12 +33,13 @@ impl Equations {
     /// more than its volume at no pressure.
     pub(super) fn new(
         problem: &Problem,
-        carried: &[f64],
+        excess_rate: &[f64],
         drive: Drive,
     ) -> Result<Self, SolveError> {
         let (unknowns, scales) = (problem.unknowns, &problem.scales);
         let (a, g) = (problem.velocity_block()?, problem.outflow()?);
-        let [known, closing, mut standing, carried_along, own, clinging] = problem.momenta();
+        let [known, closing, mut standing, force_on_body, own, clinging] =
+            problem.right_hand_sides();
         let speed = drive.speed();
         let mut clinging: Vec<f64> = (own.iter().zip(&clinging))
             .map(|(known, closing)| known + speed * closing)
@@ -70,10 +71,10 @@ impl Equations {
             closing,
             standing,
             clinging,
-            source: of_pores(&|pore| problem.closing(pore)),
+            source: of_pores(&|pore| problem.closing_loss(pore)),
             volume_source: Vec::new(),
-            carried: carried.to_vec(),
-            carried_force: carried_along.iter().sum(),
+            excess_rate: excess_rate.to_vec(),
+            known_body_force: force_on_body.iter().sum(),
         };
         equations.add_pockets(problem);
         equations.volume_source = vec![0.0; equations.source.len()];
@@ -96,11 +97,11 @@ impl Equations {
         let dt = problem.scales.dt;
         for pocket in problem.pockets {
             let (pores, tangent) = (pocket.pores.iter(), pocket.tangent);
-            let closing = pores.map(|&pore| problem.closing(pore as usize)).sum();
+            let closing = pores.map(|&pore| problem.closing_loss(pore as usize)).sum();
             self.source.push(closing);
-            self.carried_force += closing * tangent.pressure;
-            self.c.push(tangent.yielding / dt);
-            self.carried.push((tangent.volume - pocket.volume) / dt);
+            self.known_body_force += closing * tangent.pressure;
+            self.c.push(tangent.compliance / dt);
+            self.excess_rate.push((tangent.volume - pocket.volume) / dt);
             self.two_eta.push(thickest);
         }
     }
@@ -118,7 +119,7 @@ impl Equations {
             clinging: &self.clinging,
             slow: problem.scales.slow,
             volume_source: &self.volume_source,
-            carried: &self.carried,
+            carried: &self.excess_rate,
         }
     }
 
@@ -133,7 +134,7 @@ impl Equations {
         };
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let (drag, moved) = (problem.resistance(), dot(&self.closing, u));
-        flow.force = dot(&self.source, p) - moved + drag * speed + self.carried_force;
+        flow.force = dot(&self.source, p) - moved + drag * speed + self.known_body_force;
         let mut au = vec![0.0; u.len()];
         self.a.multiply(u, &mut au);
         flow.dissipation = dot(u, &au) - 2.0 * speed * moved

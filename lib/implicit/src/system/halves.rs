@@ -37,7 +37,7 @@ pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
     let mass = |(index, (face, parts)): (usize, (&Face, &[f64; 2]))| {
         let axis = usize::from(face.axis);
         let half = |((pore, up), part): ((usize, bool), &f64)| {
-            0.5 * part * mesh.volume(pore) * mesh.share(index, pore, axis, up)
+            0.5 * part * mesh.volume(pore) * mesh.area_share(index, pore, axis, up)
         };
         (face.ends().into_iter().zip([true, false]))
             .zip(parts)

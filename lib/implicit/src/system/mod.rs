@@ -19,7 +19,7 @@ pub(crate) use assembly::{Problem, Scales};
 pub(crate) use couplings::{Channels, WallCouplings};
 pub(crate) use edges::Edges;
 pub(crate) use equations::resistance;
-pub(crate) use fronts::{Fronts, STILL, Wetting};
+pub(crate) use fronts::{Fronts, REST_DISTANCE, Wetting};
 pub(crate) use halves::{halves, masses, stiffnesses};
 pub(crate) use profile::Profile;
 pub(crate) use solution::{Drive, Flow, forces, solve};

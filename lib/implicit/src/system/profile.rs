@@ -41,8 +41,9 @@ impl<'a> Profile<'a> {
         });
         let at = move |voxel: [usize; 3]| {
             std::array::from_fn(|axis| {
-                let [(first, low), (last, high)] = [false, true]
-                    .map(|up| self.end(pore, voxel, &sides[axis][usize::from(up)], axis, up));
+                let [(first, low), (last, high)] = [false, true].map(|up| {
+                    self.column_end(pore, voxel, &sides[axis][usize::from(up)], axis, up)
+                });
                 let part = (voxel[axis] as f64 + 0.5 - first) / (last - first);
                 let between = |a: f64, b: f64| a + part * (b - a);
                 let own = match (low, high) {
@@ -50,7 +51,7 @@ impl<'a> Profile<'a> {
                     (one, other) => one.or(other).unwrap_or(0.0),
                 };
                 let [low, high] =
-                    [false, true].map(|up| self.flow.frame(self.lattice, pore, axis, up));
+                    [false, true].map(|up| self.flow.grid_velocity(self.lattice, pore, axis, up));
                 own + between(low, high)
             })
         };
@@ -82,7 +83,7 @@ impl<'a> Profile<'a> {
 
     /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there,
     /// of those of the side; none where the liquid ends.
-    fn end(
+    fn column_end(
         &self,
         pore: usize,
         voxel: [usize; 3],
@@ -96,7 +97,7 @@ impl<'a> Profile<'a> {
         while last[axis] != end {
             let mut next = last;
             next[axis] = if up { last[axis] + 1 } else { last[axis] - 1 };
-            if !mesh.holds(pore, next) {
+            if !mesh.has_voxel(pore, next) {
                 return ((last[axis] + usize::from(up)) as f64, Some(0.0));
             }
             last = next;
@@ -119,20 +120,20 @@ impl FlowField<'_> {
                     (flux + own * self.velocity[face], area + own)
                 });
                 let own = if area > 0.0 { flux / area } else { 0.0 };
-                self.frame(lattice, pore, axis, up) + own
+                self.grid_velocity(lattice, pore, axis, up) + own
             };
             0.5 * (side(false) + side(true))
         })
     }
 
     /// Velocity of the grid along an axis at one side of a pore's cell.
-    fn frame(&self, lattice: &Lattice, pore: usize, axis: usize, up: bool) -> f64 {
+    fn grid_velocity(&self, lattice: &Lattice, pore: usize, axis: usize, up: bool) -> f64 {
         if axis != 1 {
             return 0.0;
         }
         let row = self.mesh.row_of(pore);
-        let share = self.mesh.rows().share(row + usize::from(up));
-        lattice.speed_at(share) * self.speed
+        let share = self.mesh.rows().closing_share(row + usize::from(up));
+        lattice.grid_speed(share) * self.speed
     }
 
     /// Whether a face had a velocity in the step: others have none at all.
@@ -147,7 +148,7 @@ impl FlowField<'_> {
             return [0.0; 2];
         }
         let (mesh, f) = (self.mesh, self.mesh.faces[face]);
-        let at_walls = self.pull_of_walls(face);
+        let at_walls = self.wall_shear_rate(face);
         // Columns of voxels that the face is open to, across each axis.
         let columns = [
             (f.open | f.open >> 1) & 0b0101,
@@ -177,15 +178,15 @@ impl FlowField<'_> {
     }
 
     /// Rate of shear at the walls of a face by which they pull it on, 1/s.
-    fn pull_of_walls(&self, face: usize) -> f64 {
+    fn wall_shear_rate(&self, face: usize) -> f64 {
         let coupling = self.couplings.of(face);
         if coupling.area == 0.0 {
             return 0.0;
         }
-        let pull = |half: usize| {
+        let drag = |half: usize| {
             let [own, closing] = coupling.sliding[half];
             own + closing * self.speed - coupling.friction[half] * self.velocity[face]
         };
-        (pull(0) + pull(1)) / coupling.area
+        (drag(0) + drag(1)) / coupling.area
     }
 }

@@ -16,14 +16,21 @@ pub(crate) enum Drive {
     /// At this speed, cells/s.
     Speed(f64),
     /// By a force over the unit of viscosity, of which errors are measured by `scale`, at a speed near `guess`.
-    Force { force: f64, scale: f64, guess: f64 },
+    Force {
+        force: f64,
+        scale: f64,
+        start_speed: f64,
+    },
 }
 
 impl Drive {
     /// The closing speed, or the guess at it.
     pub(super) fn speed(self) -> f64 {
         match self {
-            Self::Speed(speed) | Self::Force { guess: speed, .. } => speed,
+            Self::Speed(speed)
+            | Self::Force {
+                start_speed: speed, ..
+            } => speed,
         }
     }
 }
@@ -46,7 +53,7 @@ pub(crate) struct Flow {
 
 impl Flow {
     /// The same flow at another closing speed, if there is one.
-    pub(crate) fn speed_up(&mut self, speed: f64) {
+    pub(crate) fn scale_to_speed(&mut self, speed: f64) {
         let factor = speed / self.speed;
         if !(factor > 0.0 && factor.is_finite()) || factor == 1.0 {
             return;
@@ -61,21 +68,21 @@ impl Flow {
 /// volume at no pressure, and `guess` a flow to start from.
 pub(crate) fn solve(
     problem: &Problem,
-    carried: &[f64],
+    excess_rate: &[f64],
     drive: Drive,
-    guess: &Flow,
+    start: &Flow,
     solver: &SaddleSolver,
     clock: &mut Clock,
 ) -> Result<Flow, SolveError> {
     let begun = Instant::now();
     let unknowns = problem.unknowns;
-    let equations = Equations::new(problem, carried, drive)?;
+    let equations = Equations::new(problem, excess_rate, drive)?;
     let system = equations.system(problem);
     let mut u: Vec<f64> = (unknowns.faces.iter())
-        .map(|&face| guess.velocity[face as usize])
+        .map(|&face| start.velocity[face as usize])
         .collect();
     let mut p: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| guess.pressure[pore as usize])
+        .map(|&pore| start.pressure[pore as usize])
         .chain(problem.pockets.iter().map(|_| 0.0))
         .collect();
     let mut speed = drive.speed();
@@ -88,7 +95,7 @@ pub(crate) fn solve(
                 momentum: equations.closing.clone(),
                 source: equations.source.clone(),
                 resistance: problem.resistance(),
-                force: force - equations.carried_force,
+                force: force - equations.known_body_force,
                 scale: scale.max(f64::MIN_POSITIVE),
             };
             solver.solve_loaded(&system, &load, &mut u, &mut p, &mut speed)
@@ -117,8 +124,8 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
         }
     };
     let part = 1.0 / (mesh.k * mesh.k) as f64;
-    let closed_in = problem.pockets.iter().flat_map(|pocket| &pocket.pores);
-    for &pore in problem.unknowns.pores.iter().chain(closed_in) {
+    let pocket_pores = problem.pockets.iter().flat_map(|pocket| &pocket.pores);
+    for &pore in problem.unknowns.pores.iter().chain(pocket_pores) {
         let pore = pore as usize;
         let p = flow.pressure[pore];
         for voxel in mesh.voxels(pore) {
@@ -142,10 +149,10 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
                 .sum();
             push(coupling.body, drag);
             for (pore, up) in problem.ends(face).into_iter().zip([false, true]) {
-                stretching(mesh, face, up, |pull| {
-                    if pull.other.is_none() {
-                        let against = flow.velocity[face] - pull.closing * flow.speed;
-                        let tension = problem.stiffness(pore) * pull.weight * against;
+                stretching(mesh, face, up, |term| {
+                    if term.other.is_none() {
+                        let against = flow.velocity[face] - term.closing * flow.speed;
+                        let tension = problem.stiffness(pore) * term.weight * against;
                         push(wall_ahead(problem, pore, up), tension);
                     }
                 });

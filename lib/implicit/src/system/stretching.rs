@@ -4,7 +4,7 @@ use crate::geometry::{Mesh, RowKind};
 
 /// A velocity that pulls at a face with a weight; the wall ahead has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pull {
+pub(crate) struct StretchTerm {
     /// The other face; `None` for the wall ahead.
     pub(crate) other: Option<usize>,
     pub(crate) weight: f64,
@@ -13,13 +13,13 @@ pub(crate) struct Pull {
 }
 
 /// Pulls at `face` of the stretching of the pore on its high (`up`) or low side, per viscosity and liquid fraction.
-pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(Pull)) {
+pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(StretchTerm)) {
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
     let pore = f.ends()[usize::from(up)];
     let edge = mesh.edge(pore, axis);
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
-    let own = mesh.share(face, pore, axis, !up);
+    let own = mesh.area_share(face, pore, axis, !up);
     let closing = match (axis, mesh.rows().kind(mesh.row_of(pore))) {
         (1, RowKind::Gap) => 1.0 / mesh.rows().gap as f64,
         _ => 0.0,
@@ -30,7 +30,7 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
     if ahead.len() == 0 {
         // Half an edge at least: behind each open voxel face is a voxel.
         let distance = (mesh.volume(pore) / mesh.area(face) / edge).min(1.0);
-        add(Pull {
+        add(StretchTerm {
             other: None,
             weight: weight * own / (distance * distance),
             closing,
@@ -38,9 +38,9 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
         return;
     }
     for other in ahead {
-        add(Pull {
+        add(StretchTerm {
             other: Some(other),
-            weight: weight * own * mesh.share(other, pore, axis, up),
+            weight: weight * own * mesh.area_share(other, pore, axis, up),
             closing,
         });
     }

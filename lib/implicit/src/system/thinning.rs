@@ -3,9 +3,9 @@
 use physics::Viscosity;
 
 /// Lumens this wide (cells) are as wide as any: what the law of the liquid changes falls with the width, what it costs grows.
-const WIDEST: f64 = 60.0;
+const MAX_WIDTH: f64 = 60.0;
 /// Least part of a Newtonian liquid's distance, so that friction stays finite where that next to vanishes, beside low rows.
-const LEAST: f64 = 0.02;
+const MIN_RATIO: f64 = 0.02;
 
 /// Distance (cells) over which the difference between a face velocity and its wall acts for a liquid whose
 /// rate goes with the power `p` of its stress, where that for a Newtonian liquid is `distance`, in a slit of `width` H
@@ -20,18 +20,18 @@ const LEAST: f64 = 0.02;
 ///
 /// which for p = 1 is the d_eff of the links. What is returned is `distance` d(p)/d(1).
 pub(super) fn thinning_distance(distance: f64, width: f64, first: f64, p: f64) -> f64 {
-    if width > WIDEST {
+    if width > MAX_WIDTH {
         return distance;
     }
     let of = |p: f64| {
-        let (mut sum, mut y, mut apart) = (0.0, first, 0.5 * (first + 1.0));
+        let (mut sum, mut y, mut spacing) = (0.0, first, 0.5 * (first + 1.0));
         while 2.0 * y < width {
-            sum += apart * (1.0 - 2.0 * y / width).powf(p + 1.0);
-            (y, apart) = (y + 1.0, 1.0);
+            sum += spacing * (1.0 - 2.0 * y / width).powf(p + 1.0);
+            (y, spacing) = (y + 1.0, 1.0);
         }
         0.5 * width / (p + 2.0) - sum
     };
-    distance * (of(p) / of(1.0)).max(LEAST)
+    distance * (of(p) / of(1.0)).max(MIN_RATIO)
 }
 
 /// d ln(rate)/d ln(stress) of a law at a rate, 1/s.
@@ -57,7 +57,8 @@ mod tests {
                 let mut edges = vec![(first, 0.5 * (first + 1.0))];
                 edges.extend((1..n).map(|j| (first + f64::from(j), 1.0)));
                 edges.retain(|edge| 2.0 * edge.0 < width);
-                let step = |&(y, apart): &(f64, f64)| (y, apart * (1.0 - 2.0 * y / width).powf(p));
+                let step =
+                    |&(y, spacing): &(f64, f64)| (y, spacing * (1.0 - 2.0 * y / width).powf(p));
                 edges.iter().map(step).collect::<Vec<_>>()
             };
             let flux = |wall: f64, p: f64| {

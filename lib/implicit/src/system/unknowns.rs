@@ -20,7 +20,7 @@ pub(crate) struct Unknowns {
     /// One more than the number of the velocity of each face that has one, in four bytes.
     face_number: Vec<Option<NonZeroU32>>,
     /// Whether each pore has one.
-    bounded: Vec<bool>,
+    has_pressure: Vec<bool>,
 }
 
 impl Unknowns {
@@ -31,7 +31,7 @@ impl Unknowns {
             faces: Vec::new(),
             pores: Vec::new(),
             face_number: vec![None; mesh.faces.len()],
-            bounded: vec![false; mesh.pores.len()],
+            has_pressure: vec![false; mesh.pores.len()],
         };
         for face in by_rows(mesh) {
             let ends = mesh.faces[face].ends();
@@ -43,17 +43,17 @@ impl Unknowns {
             unknowns.faces.push(face as u32);
             unknowns.face_number[face] = NonZeroU32::new(unknowns.faces.len() as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
-                unknowns.bounded[pore] = true;
+                unknowns.has_pressure[pore] = true;
             }
         }
         let pores = 0..mesh.pores.len() as u32;
-        unknowns.pores = (pores.filter(|&pore| unknowns.bounded[pore as usize])).collect();
+        unknowns.pores = (pores.filter(|&pore| unknowns.has_pressure[pore as usize])).collect();
         unknowns
     }
 
     /// Whether a pore has a pressure.
     pub(crate) fn has_pressure(&self, pore: usize) -> bool {
-        self.bounded[pore]
+        self.has_pressure[pore]
     }
 
     /// Number of the velocity of a face.

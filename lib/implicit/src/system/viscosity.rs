@@ -38,8 +38,8 @@ impl Viscosities {
     pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
         let law = &liquid.viscosity;
         let at = |rate: f64| factor * law.at(rate);
-        let wall = |wall: &Wall| {
-            let share = wall.share(law, slip);
+        let wall = |wall: &WallShear| {
+            let share = wall.thinning_factor(law, slip);
             [share * at(share * wall.rate); 2]
         };
         Self {
@@ -75,16 +75,16 @@ impl Viscosities {
 /// Rate of simple shear at walls, 1/s, the distance to them, the width between them, and where the first edge lies off them,
 /// cells.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Wall {
+pub(crate) struct WallShear {
     pub(super) rate: f64,
     distance: f64,
     width: f64,
     first: f64,
 }
 
-impl Wall {
+impl WallShear {
     /// What the rate there is multiplied by, and the viscosity, for the distance that suits a liquid of this `law`.
-    pub(super) fn share(&self, law: &Viscosity, slip: f64) -> f64 {
+    pub(super) fn thinning_factor(&self, law: &Viscosity, slip: f64) -> f64 {
         if self.rate <= 0.0 {
             return 1.0;
         }
@@ -99,7 +99,7 @@ impl Wall {
 pub(crate) struct Rates {
     pub(crate) pores: Vec<f64>,
     pub(super) edges: Vec<f64>,
-    pub(super) walls: Vec<Wall>,
+    pub(super) walls: Vec<WallShear>,
 }
 
 impl Rates {
@@ -119,7 +119,7 @@ impl Rates {
 }
 
 /// The rate of a square of that of simple shear.
-fn of_shear(square: f64, convention: ShearRate) -> f64 {
+fn rate_of_square(square: f64, convention: ShearRate) -> f64 {
     // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
     convention.factor() / std::f64::consts::SQRT_2 * square.max(0.0).sqrt()
 }
@@ -139,7 +139,7 @@ impl FlowField<'_> {
     /// Rates of pores, edges and walls. That of a pore has the mean dissipation over it.
     pub(crate) fn rates(&self, convention: ShearRate, slip: f64) -> Rates {
         let (pores, parts) = self.pore_rates(convention);
-        let rate = |square: f64| of_shear(square, convention);
+        let rate = |square: f64| rate_of_square(square, convention);
         let edges = self.edges.rates(self.mesh, self.velocity, &parts);
         Rates {
             pores,
@@ -157,20 +157,20 @@ impl FlowField<'_> {
         let mesh = self.mesh;
         let sheared: Vec<[f64; 2]> = (0..mesh.faces.len())
             .into_par_iter()
-            .map(|face| self.sheared(face))
+            .map(|face| self.edge_dissipation(face))
             .collect();
         let (parts, walls): (Vec<[f64; 4]>, Vec<f64>) = (0..mesh.pores.len())
             .into_par_iter()
-            .map(|pore| self.parts(pore, &sheared))
+            .map(|pore| self.square_parts(pore, &sheared))
             .unzip();
         let square = |(parts, walls): (&[f64; 4], &f64)| parts.iter().sum::<f64>() + walls;
         let rates = parts.iter().zip(&walls);
-        let rates = rates.map(|of| of_shear(square(of), convention));
+        let rates = rates.map(|of| rate_of_square(square(of), convention));
         (rates.collect(), parts)
     }
 
     /// Dissipation at the edges of a face, a quarter of each, by the axis that they lie along, the lower first.
-    fn sheared(&self, face: usize) -> [f64; 2] {
+    fn edge_dissipation(&self, face: usize) -> [f64; 2] {
         let (mesh, u) = (self.mesh, self.velocity);
         let [first, _] = others(usize::from(mesh.faces[face].axis));
         let mut sums = [0.0; 2];
@@ -180,7 +180,7 @@ impl FlowField<'_> {
             if along == 0.0 {
                 continue;
             }
-            let [shear, length] = edge.measured(mesh, face);
+            let [shear, length] = edge.geometry(mesh, face);
             let sheared = shear * along + length * across;
             sums[usize::from(edge.axis(mesh, face) != first)] += 0.25 * along * sheared;
         }
@@ -188,16 +188,16 @@ impl FlowField<'_> {
     }
 
     /// The squares of one pore, by the shear of faces.
-    fn parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
+    fn square_parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
         for Neighbour { face, axis, up, .. } in mesh.neighbours(pore) {
             if !up {
                 // The pore is on the high side of its low faces.
-                stretching(mesh, face, true, |pull| {
-                    let other = pull.other.map_or(0.0, |other| u[other]);
-                    let rate = other - u[face] + pull.closing * self.speed;
-                    parts[0] += pull.weight * rate.powi(2);
+                stretching(mesh, face, true, |term| {
+                    let other = term.other.map_or(0.0, |other| u[other]);
+                    let rate = other - u[face] + term.closing * self.speed;
+                    parts[0] += term.weight * rate.powi(2);
                 });
             }
             for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
@@ -216,25 +216,25 @@ impl FlowField<'_> {
     }
 
     /// What the walls of a face do.
-    fn wall_rate(&self, face: usize, slip: f64) -> Wall {
+    fn wall_rate(&self, face: usize, slip: f64) -> WallShear {
         let coupling = self.couplings.of(face);
         let friction: f64 = coupling.friction.iter().sum();
         if friction == 0.0 {
-            return Wall::default();
+            return WallShear::default();
         }
         let wall: f64 = (0..2)
             .map(|half| coupling.sliding[half][0] + coupling.sliding[half][1] * self.speed)
             .sum();
         if coupling.area == 0.0 {
             // Past a corner alone, a cell off.
-            return Wall {
+            return WallShear {
                 rate: (self.velocity[face] - wall / friction).abs(),
                 distance: 1.0,
                 width: f64::INFINITY,
                 first: 1.0,
             };
         }
-        Wall {
+        WallShear {
             rate: (friction * self.velocity[face] - wall).abs() / coupling.area,
             distance: (coupling.area / friction - slip).max(0.0),
             width: coupling.inverse_width_squared.powf(-0.5),

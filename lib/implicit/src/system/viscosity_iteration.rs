@@ -4,14 +4,14 @@
 use physics::Liquid;
 use rayon::prelude::*;
 
-use super::viscosity::{Rates, Viscosities, Wall};
+use super::viscosity::{Rates, Viscosities, WallShear};
 
 /// Passes over what depends on the solution, at most: what settles takes fewer.
 pub(crate) const PASSES: usize = 30;
 
 /// Largest exponent of a rate that is anticipated, and how near it is found.
-const FARTHEST: f64 = 30.0;
-const NEAR: f64 = 0.05 * SETTLED;
+const MAX_EXPONENT: f64 = 30.0;
+const EXPONENT_TOLERANCE: f64 = 0.05 * SETTLED;
 /// Mean change of ln(viscosity), weighted by dissipation, that ends the passes; a smaller one tells nothing of the answer.
 const SETTLED: f64 = 2e-3;
 
@@ -24,7 +24,7 @@ pub(crate) struct ViscosityIteration<'a> {
     pub(crate) slip: f64,
     /// Those of the next pass.
     pub(crate) used: Viscosities,
-    last: Option<Pass>,
+    last: Option<Evaluation>,
     response: f64,
 }
 
@@ -46,12 +46,12 @@ impl<'a> ViscosityIteration<'a> {
     pub(crate) fn update(&mut self, rates: Rates, power: Vec<f64>) -> bool {
         let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
-        let pass = Pass { used, rates, power };
+        let pass = Evaluation { used, rates, power };
         let settled = pass.change(&by_law) < SETTLED;
         self.used = match &self.last {
             Some(before) => {
                 self.response = pass.response(before, self.response);
-                pass.ahead(self.liquid, self.factor, self.slip, self.response)
+                pass.extrapolated(self.liquid, self.factor, self.slip, self.response)
             }
             None => by_law,
         };
@@ -61,14 +61,14 @@ impl<'a> ViscosityIteration<'a> {
 }
 
 /// A flow, and the viscosities by the law of the liquid that it was solved with.
-struct Pass {
+struct Evaluation {
     used: Viscosities,
     rates: Rates,
     /// Dissipation of each pore.
     power: Vec<f64>,
 }
 
-impl Pass {
+impl Evaluation {
     /// Mean change of ln(viscosity) to that of the `law` at the rates, weighted by dissipation.
     fn change(&self, law: &Viscosities) -> f64 {
         let mut sums = [0.0; 2];
@@ -106,12 +106,12 @@ impl Pass {
     /// The viscosities that the law of `liquid`, times `factor`, has at the rates which follow from them, if rates go with the
     /// power `response` of the viscosity from here. Exact in a channel under a given load, where passes that take the
     /// viscosity of the rates (a response of 0) come nearer by a part only, and hardly so where a liquid yields.
-    fn ahead(&self, liquid: &Liquid, factor: f64, slip: f64, response: f64) -> Viscosities {
+    fn extrapolated(&self, liquid: &Liquid, factor: f64, slip: f64, response: f64) -> Viscosities {
         let law = &liquid.viscosity;
         let of = |rate: f64, used: f64| {
             let at = |rate: f64| (factor * law.at(rate)).ln();
             match rate > 0.0 {
-                true => consistent(at, used.ln(), rate, response).exp(),
+                true => self_consistent(at, used.ln(), rate, response).exp(),
                 false => factor * law.at(rate),
             }
         };
@@ -120,8 +120,8 @@ impl Pass {
             each.map(|(&rate, &used)| of(rate, used)).collect()
         };
         let walls = self.rates.walls.par_iter().zip(&self.used.walls);
-        let wall = |(wall, used): (&Wall, &[f64; 2])| {
-            let share = wall.share(law, slip);
+        let wall = |(wall, used): (&WallShear, &[f64; 2])| {
+            let share = wall.thinning_factor(law, slip);
             [share * of(share * wall.rate, used[0] / share); 2]
         };
         Viscosities {
@@ -134,17 +134,17 @@ impl Pass {
 
 /// ln(viscosity) x with x = ln eta(rate exp(response (x - used))), for a stress that does not fall with
 /// the rate: by the Illinois variant of false position in the exponent.
-fn consistent(ln_eta: impl Fn(f64) -> f64, used: f64, rate: f64, response: f64) -> f64 {
+fn self_consistent(ln_eta: impl Fn(f64) -> f64, used: f64, rate: f64, response: f64) -> f64 {
     let at = |exponent: f64| ln_eta(rate * exponent.exp());
     let excess = |exponent: f64| exponent - response * (at(exponent) - used);
     let (mut low, mut at_low) = (0.0, excess(0.0));
-    if at_low.abs() <= NEAR {
+    if at_low.abs() <= EXPONENT_TOLERANCE {
         return at(-at_low);
     }
     // The excess grows with the exponent: the root lies on the side it points away from.
     let mut high = -at_low;
     let mut at_high = excess(high);
-    while at_high * at_low > 0.0 && high.abs() < FARTHEST {
+    while at_high * at_low > 0.0 && high.abs() < MAX_EXPONENT {
         (low, at_low) = (high, at_high);
         high *= 2.0;
         at_high = excess(high);
@@ -152,10 +152,10 @@ fn consistent(ln_eta: impl Fn(f64) -> f64, used: f64, rate: f64, response: f64) 
     if at_high * at_low > 0.0 {
         return at(high);
     }
-    while (high - low).abs() > NEAR {
+    while (high - low).abs() > EXPONENT_TOLERANCE {
         let next = (low * at_high - high * at_low) / (at_high - at_low);
         let found = excess(next);
-        if found.abs() <= NEAR * NEAR {
+        if found.abs() <= EXPONENT_TOLERANCE * EXPONENT_TOLERANCE {
             return at(next);
         }
         if found * at_high < 0.0 {
@@ -176,11 +176,11 @@ mod tests {
     #[test]
     fn a_given_stress_has_its_viscosity_at_once() {
         let ln_eta = |rate: f64| -0.7 * rate.ln();
-        let eta = consistent(ln_eta, 0.0, 2.0, -1.0).exp();
+        let eta = self_consistent(ln_eta, 0.0, 2.0, -1.0).exp();
         // rate^0.3 = 2
         let rate = 2_f64.powf(1.0 / 0.3);
         assert!((eta / rate.powf(-0.7) - 1.0).abs() < 1e-3, "{eta}");
-        let of_the_rate = consistent(ln_eta, 0.0, 2.0, 0.0).exp();
+        let of_the_rate = self_consistent(ln_eta, 0.0, 2.0, 0.0).exp();
         assert!((of_the_rate / 2_f64.powf(-0.7) - 1.0).abs() < 1e-12);
     }
 
@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn no_rate_is_sought_beyond_thirteen_decades() {
         let ln_eta = |rate: f64| -0.999 * rate.ln();
-        let found = consistent(ln_eta, 0.0, std::f64::consts::E, -1.0);
+        let found = self_consistent(ln_eta, 0.0, std::f64::consts::E, -1.0);
         assert!(
             (found + 0.999 * (1.0 + 0.999 * 32.0)).abs() < 1e-9,
             "{found}"

@@ -57,9 +57,9 @@ fn inclination(
     let [x, _, z] = mesh.place(cell);
     let row = mesh.row(cell) as i64 - mesh.rows().below as i64;
     let cells = [
-        x as i64 - mesh.beyond[0] as i64,
+        x as i64 - mesh.ghost_layers[0] as i64,
         row,
-        z as i64 - mesh.beyond[2] as i64,
+        z as i64 - mesh.ghost_layers[2] as i64,
     ];
     let at: [i64; 3] = std::array::from_fn(|a| cells[a] * k + voxel[a] as i64);
     let radius = AROUND * mesh.k as f64;
@@ -89,7 +89,7 @@ fn inclination(
 /// Whether a voxel is open: its places along x and z, and above the low side of a gap of so many layers; sides mirror
 /// or go on.
 fn is_open(lattice: &Lattice, gap: i64, [x, y, z]: [i64; 3]) -> bool {
-    let [nx, nz] = lattice.across().map(|n| n as i64);
+    let [nx, nz] = lattice.layer_size().map(|n| n as i64);
     let (Some(x), Some(z)) = (
         within(x, nx, lattice.boundary[0]),
         within(z, nz, lattice.boundary[2]),
