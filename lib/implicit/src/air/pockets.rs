@@ -1,15 +1,15 @@
-//! Which pores that are not full make a pocket, and the air in them.
+//! Pockets of air: which pores belong to each, and the gas in them.
 
 use super::law::{Gas, Tangent};
 use crate::geometry::Mesh;
 
-/// Connected pores that are not full and that nothing connects with the outside.
+/// A pocket: connected pores that are not full and have no connection to the outside.
 #[derive(Clone, Debug)]
 pub(crate) struct Pocket {
     pub(crate) pores: Vec<u32>,
-    /// Absolute pressure times volume at the start of the step.
+    /// Amount of gas, as absolute pressure times volume, at the start of the step.
     pub(crate) mass: f64,
-    /// Volume then, cells.
+    /// Volume at the start of the step, cells.
     pub(crate) volume: f64,
     pub(crate) tangent: Tangent,
 }
@@ -17,20 +17,20 @@ pub(crate) struct Pocket {
 /// Air of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Air {
-    /// Pockets beside liquid, which have a pressure in the step, and the others.
+    /// Pockets that border on pores with a pressure, each with an unknown pressure of its own, and the `dry` others.
     pub(crate) pockets: Vec<Pocket>,
     pub(crate) dry: Vec<Pocket>,
-    /// Absolute pressure times volume in each pore; in those of pockets at the start of the step.
+    /// Gas in each pore, as absolute pressure times volume; in pockets that at the start of the step.
     pub(crate) mass: Vec<f64>,
-    /// Pores whose air nothing closes off.
+    /// Pores whose air is connected to the outside.
     outside: Vec<u32>,
-    /// Air that full pores have closed in, with none beside.
+    /// Gas in full pores whose neighbours are all full too: it has no pressure until one of them empties.
     pub(crate) covered: f64,
 }
 
 impl Air {
-    /// The air `held` by pores of the empty volume `void`, as pockets where those that are `full` part it. It passes open sides of
-    /// the domain, and those normal to y where these let it out `along_y`.
+    /// The pockets into which pores that are `full` divide the air. `mass` is the gas in each pore, `void` its empty volume. Air
+    /// escapes through open sides of the domain, and through the sides normal to y if `along_y`.
     pub(crate) fn new(
         mesh: &Mesh,
         has_pressure: impl Fn(usize) -> bool,
@@ -69,6 +69,7 @@ impl Air {
         air
     }
 
+    /// Adds connected pores: as outside air if they are `open`, else as a pocket, `wet` if it borders on liquid with a pressure.
     fn add(&mut self, mut pores: Vec<u32>, open: bool, wet: bool, void: &[f64]) {
         if open {
             self.outside.append(&mut pores);
@@ -88,7 +89,7 @@ impl Air {
         }
     }
 
-    /// Gives what full pores hold to those beside them that are not, by their empty volume.
+    /// Moves the gas of full pores to their neighbours that are not full, in proportion to the empty volume of these.
     fn release_covered(&mut self, mesh: &Mesh, full: &impl Fn(usize) -> bool, void: &[f64]) {
         for pore in (0..mesh.pores.len()).filter(|&pore| full(pore)) {
             if self.mass[pore] == 0.0 {
@@ -111,8 +112,8 @@ impl Air {
         }
     }
 
-    /// Whether the pressures of pores are those of the volumes that pockets come to in a step of `dt` (s); where one is not,
-    /// pockets have tangents at these volumes.
+    /// Whether the pressures found for a step of `dt` (s) obey the gas law in all pockets. If not, linearises the law anew about the
+    /// volumes found.
     pub(crate) fn update_tangents(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
         let pressure = |pocket: &Pocket| pressures[pocket.pores[0] as usize];
         let agrees =
@@ -127,8 +128,8 @@ impl Air {
         false
     }
 
-    /// The air in each pore after the step, in which the empty volumes came to `void`: that of a pocket is alike
-    /// in all of it, that outside has the pressure `outside`.
+    /// The gas in each pore after the step, by the empty volumes `void` then: a pocket has one pressure throughout, outside air the
+    /// pressure `outside`.
     pub(crate) fn mass_after_step(mut self, void: &[f64], outside: f64) -> Vec<f64> {
         for pocket in self.pockets.iter().chain(&self.dry) {
             let all: f64 = pocket.pores.iter().map(|&pore| void[pore as usize]).sum();

@@ -1,29 +1,31 @@
-//! Chord lengths: runs of open voxels along x, y and z through each voxel, which walls see as the width of their channel.
+//! Chord lengths: the run of open voxels along x, y or z through a voxel, which is the channel width H of docs/methods.md
+//! section 3.5.
 
 use physics::Boundary;
 
 use super::Lattice;
 use super::lattice::OPEN;
 
-/// Longest chord that is told from longer ones, voxels: walls farther apart do not feel each other's friction.
+/// Cap on chord lengths, voxels, which also stands for infinity: walls farther apart do not affect each other's friction.
 pub(super) const LONGEST_CHORD: u16 = 1000;
 
-/// The open voxels of a column in one part of the lattice from the gap on, and whether they end at the far side of the domain.
+/// A run of open voxels along y that starts at the gap, in the part below or above: its length, and whether it reaches the side
+/// of the domain.
 #[derive(Clone, Copy, Default)]
 struct Column {
     voxels: u32,
     reaches_side: bool,
 }
 
-/// Chord lengths of all voxels: those in the gap and through it are kept, others are counted when they are asked for.
+/// Chord lengths of all voxels. Those that involve the gap are tabulated; others are counted on request.
 pub(crate) struct Chords {
-    /// Along x and z in the gap.
+    /// Chord lengths along x and along z in the gap.
     gap: [Vec<u16>; 2],
-    /// Columns that the gap opens to, below and above it.
+    /// Runs of open voxels that continue the gap below and above.
     columns: [Vec<Column>; 2],
 }
 
-/// Which voxel: part of the lattice, layer counted from the gap, place in the layer.
+/// Address of a voxel: part of the lattice, layer counted from the gap, index in the layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VoxelPlace {
     Below(usize, usize),
@@ -62,7 +64,7 @@ impl Chords {
         }
     }
 
-    /// Length of the chord along an axis through an open voxel, voxels, with a gap of so many.
+    /// Chord length along an axis through an open voxel, voxels; the gap is `gap` voxels high.
     pub(crate) fn length(
         &self,
         lattice: &Lattice,
@@ -101,7 +103,7 @@ impl Chords {
         layer < column.voxels as usize
     }
 
-    /// Length of the chord along y through the gap at a place in the layer.
+    /// Chord length along y through the gap at index `at` of the layers.
     fn length_through_gap(&self, lattice: &Lattice, at: usize, gap: f64) -> f64 {
         let [low, high] = [0, 1].map(|part| self.columns[part][at]);
         let voxels = f64::from(low.voxels) + gap + f64::from(high.voxels);
@@ -113,7 +115,7 @@ impl Chords {
     }
 }
 
-/// The length of a run along y of which so many ends are at sides of the domain.
+/// Chord length of a run along y that has `at_sides` ends at sides of the domain: doubled by a mirror, else unbounded.
 fn bounded_length(lattice: &Lattice, voxels: f64, at_sides: usize) -> f64 {
     match (at_sides, lattice.boundary[1]) {
         (0, _) => voxels,
@@ -123,7 +125,7 @@ fn bounded_length(lattice: &Lattice, voxels: f64, at_sides: usize) -> f64 {
     .min(f64::from(LONGEST_CHORD))
 }
 
-/// Chord along x (axis 0) or z (axis 1) through an open voxel of a layer.
+/// Chord length along x (axis 0) or z (axis 1) through an open voxel of a layer.
 fn chord_in_layer(layer: &[u8], at: usize, axis: usize, lattice: &Lattice) -> u16 {
     let size = lattice.layer_size();
     let (stride, i) = ([1, size[0]][axis], [at % size[0], at / size[0]][axis]);
@@ -132,14 +134,14 @@ fn chord_in_layer(layer: &[u8], at: usize, axis: usize, lattice: &Lattice) -> u1
     chord_length(size[axis], lattice.boundary[2 * axis], open, i)
 }
 
-/// The open voxels around one of a line of `n`: the first, and that behind the last.
+/// The run of open voxels around index `i` of a line of `n`, as start and end.
 fn open_run(n: usize, open: &impl Fn(usize) -> bool, i: usize) -> [usize; 2] {
     let from = (0..i).rev().find(|&i| !open(i)).map_or(0, |wall| wall + 1);
     let to = (i..n).find(|&i| !open(i)).unwrap_or(n);
     [from, to]
 }
 
-/// The chord through voxel `i` of a line of `n` with sides of a kind: doubled by a mirror, joined over periodic sides.
+/// Chord length through voxel `i` of a line of `n`: doubled at a mirror, joined across periodic sides.
 fn chord_length(n: usize, boundary: Boundary, open: impl Fn(usize) -> bool, i: usize) -> u16 {
     let [from, to] = open_run(n, &open, i);
     let (first, last, length) = (from == 0, to == n, to - from);

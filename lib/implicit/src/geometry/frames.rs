@@ -1,10 +1,10 @@
-//! The parts of a scene that move against one another, and the gap between them.
+//! The two reference frames of a scene, that of the moving body and that of all others, and the gap between them.
 
 use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
 
 use super::lattice::{ALIGNED, Moving};
 
-/// Refuses motions by which walls come elsewhere than where the grid has them.
+/// Refuses motions that would move walls off the grid's faces.
 pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
     let tight = ALIGNED * scene.grid.cell_m;
@@ -87,16 +87,16 @@ fn moving(scene: &Scene) -> Result<Option<Moving>, String> {
     Ok(found)
 }
 
-/// Where the gap lies and what moves.
+/// The gap and the body that moves.
 pub(super) struct Frames {
-    /// y of its low and its high side, m.
+    /// y of the low and the high side of the gap, m.
     pub(super) gap: [f64; 2],
     pub(super) moving: Option<Moving>,
 }
 
 impl Frames {
-    /// The gap lies between the body that moves and the nearest voxels of others that end towards it; without such a body it
-    /// is none, at the low side of the domain.
+    /// The gap lies between the moving body and the nearest face of another body ahead of it, else the side of the domain. Without
+    /// a moving body it has no height and lies at the low side of the domain.
     pub(super) fn new(scene: &Scene) -> Result<Self, String> {
         let [low, high] = [scene.grid.min_m[1], scene.grid.max_m()[1]];
         let moving = moving(scene)?;
@@ -111,7 +111,7 @@ impl Frames {
             (so_far.0.min(from), so_far.1.max(to))
         });
         let tight = ALIGNED * scene.grid.cell_m;
-        // Where another body ends on the way, the gap ends.
+        // The gap ends at the first face of another body ahead of the moving one.
         let others = scene.bodies.iter().enumerate().filter(|at| at.0 != body);
         let blocks = others.flat_map(|(_, body)| &body.blocks);
         let ends = blocks.filter_map(solid_extent).flatten();
@@ -125,7 +125,7 @@ impl Frames {
         if let Stop::Closed { travel_m } = scene.stop
             && travel_m > gap[1] - gap[0] + tight
         {
-            // Not more than the gap by rounding.
+            // Rounded down, so that the suggested travel does not exceed the gap.
             let most = (1e10 * (gap[1] - gap[0]) + 1e-3).floor() / 1e4;
             let help = match most > 0.0 {
                 true => format!("; --set clamp.travel=\"{most} um\" goes so far"),

@@ -1,4 +1,4 @@
-//! Pores and faces: the control volumes of the liquid and what joins them.
+//! Pores and faces: the control volumes and the faces that carry the staggered velocities.
 
 use std::ops::Range;
 
@@ -11,82 +11,82 @@ use super::region::Region;
 use super::rows::Rows;
 use super::split::connected;
 
-/// A connected part of the open voxels of a cell.
+/// A control volume: a connected set of open voxels of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Pore {
     pub(crate) cell: u32,
     /// Row of the grid.
     pub(crate) row: u32,
-    /// Its voxels, a bit each, x fastest.
+    /// Bit mask of its voxels, x fastest.
     pub(crate) voxels: u8,
 }
 
-/// Open voxel faces between two pores of neighbouring cells, which share a velocity.
+/// The open voxel faces between two pores of neighbouring cells, with one velocity for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Face {
     pub(crate) low: u32,
     pub(crate) high: u32,
-    /// The voxel faces, a bit each, the lower of the two other axes fastest.
+    /// Bit mask of the open voxel faces, the lower of the two tangential axes fastest.
     pub(crate) open: u8,
     pub(crate) axis: u8,
 }
 
 impl Face {
-    /// The pores on its low and its high side.
+    /// The pores on the low and the high side.
     pub(crate) fn ends(&self) -> [usize; 2] {
         [self.low as usize, self.high as usize]
     }
 }
 
-/// A face seen from a pore beside it.
+/// A neighbour of a pore and the face towards it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neighbour {
     pub(crate) face: usize,
     pub(crate) axis: usize,
-    /// Whether it is on the pore's high side.
+    /// Whether the face is on the pore's high side.
     pub(crate) up: bool,
-    /// The pore behind it.
+    /// The neighbouring pore.
     pub(crate) pore: usize,
 }
 
 impl Neighbour {
-    /// Sign of a velocity that leaves the pore.
+    /// Sign of a face velocity that leaves the pore.
     pub(crate) fn sign(self) -> f64 {
         if self.up { 1.0 } else { -1.0 }
     }
 }
 
-/// The pores and faces of a range of rows. Cells are counted x first, then y (rows), then z; on open sides a layer of
-/// cells beyond the domain takes what leaves it.
+/// The pores and faces of a range of rows. Cells are numbered x first, then y (rows), then z. Beyond each open side lies a layer
+/// of ghost cells that takes the outflow.
 pub(crate) struct Mesh {
     pub(crate) k: usize,
-    /// Cells along x, rows, z, with those beyond open sides.
+    /// Cells along x, rows, cells along z, ghost cells included.
     pub(crate) size: [usize; 3],
-    /// Cells beyond the low sides.
+    /// Layers of ghost cells at the low side of each axis.
     pub(crate) ghost_layers: [usize; 3],
     pub(super) measures: Measures,
-    /// Rows of the grid that are here.
+    /// Rows of the grid that this mesh covers.
     pub(crate) range: Range<usize>,
-    /// Cells that have their pores here.
+    /// Active cells: only these have pores.
     pub(crate) region: Region,
     pub(crate) boundary: [Boundary; 3],
     pub(crate) pores: Vec<Pore>,
     pub(crate) faces: Vec<Face>,
-    /// What fills each voxel of each cell.
+    /// Code of each voxel of each cell: open, mirror or body.
     pub(super) codes: Vec<u8>,
-    /// At which sides of the box each cell lies, a bit each: low and high along x, y, z.
+    /// Bit mask of the sides of the box at which each cell lies: low and high along x, y, z.
     at_sides: Vec<u8>,
-    /// First pore of each cell, and one more.
+    /// Start of each cell's pores in `pores` (compressed rows, with an end).
     pore_start: Vec<u32>,
-    /// First face of each cell towards x, y, z, and one more.
+    /// Start of each cell's faces towards its next cell along x, y, z in `faces` (compressed rows, with an end).
     face_start: Vec<u32>,
-    /// Faces of each pore on its low and its high side along x, y, z, and where those of each side begin.
+    /// Faces of each pore, grouped by side (low and high along x, y, z), and the start of each group.
     pore_faces: Vec<u32>,
     pore_face_start: Vec<u32>,
 }
 
 impl Mesh {
-    /// The box of cells of the rows in `range`.
+    /// Size of the box of cells of the rows in `range`.
     pub(crate) fn size_of(lattice: &Lattice, range: &Range<usize>) -> [usize; 3] {
         let ghost_layers = Self::ghost_layers_of(lattice);
         let [nx, nz] = lattice.cells;
@@ -97,7 +97,7 @@ impl Mesh {
         ]
     }
 
-    /// Cells beyond the low sides.
+    /// Layers of ghost cells at the low side of each axis.
     fn ghost_layers_of(lattice: &Lattice) -> [usize; 3] {
         let open_side = |a: usize| usize::from(lattice.boundary[a] == Boundary::Open);
         [open_side(0), 0, open_side(2)]
@@ -109,7 +109,7 @@ impl Mesh {
         Self::new(lattice, rows, range, region)
     }
 
-    /// The mesh of a region of the rows in `range`.
+    /// The mesh of the active cells `region` of the rows in `range`.
     pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>, region: Region) -> Self {
         let ghost_layers = Self::ghost_layers_of(lattice);
         let size = Self::size_of(lattice, &range);
@@ -167,7 +167,7 @@ impl Mesh {
         mesh
     }
 
-    /// Lists the faces of each pore.
+    /// Fills `pore_faces` and `pore_face_start`.
     fn list_pore_faces(&mut self) {
         self.pore_faces.reserve_exact(2 * self.faces.len());
         self.pore_face_start.reserve_exact(6 * self.pores.len() + 1);
@@ -193,7 +193,7 @@ impl Mesh {
         self.pore_face_start.push(self.pore_faces.len() as u32);
     }
 
-    /// Adds the faces between the pores of two cells.
+    /// Adds the faces between the pores of two neighbouring cells.
     fn join(&mut self, low: usize, high: usize, axis: usize) {
         for l in self.pores_of(low) {
             for h in self.pores_of(high) {
@@ -211,7 +211,7 @@ impl Mesh {
         }
     }
 
-    /// The place in its cell of the voxel of a bit.
+    /// Position in its cell of the voxel of a mask bit.
     pub(crate) fn voxel(&self, bit: usize) -> [usize; 3] {
         match self.k {
             1 => [0; 3],
@@ -219,7 +219,7 @@ impl Mesh {
         }
     }
 
-    /// Voxels on the high or low side of a cell along an axis, as bits of the other two axes, the lower fastest.
+    /// Mask of the voxels at the high or low side of a cell along an axis, over the two tangential axes, the lower fastest.
     fn side(&self, voxels: u8, axis: usize, high: bool) -> u8 {
         let k = self.k;
         let mut side = 0;
@@ -233,7 +233,7 @@ impl Mesh {
         side
     }
 
-    /// Place of a cell: x, row of the mesh, z.
+    /// Indices of a cell in the box: x, row of the mesh, z.
     pub(crate) fn place(&self, cell: usize) -> [usize; 3] {
         let [nx, ny, _] = self.size;
         [cell % nx, cell / nx % ny, cell / (nx * ny)]
@@ -253,7 +253,7 @@ impl Mesh {
         self.pores[pore].row as usize
     }
 
-    /// The next cell along an axis, over periodic sides too; `None` at other sides.
+    /// The next cell along an axis, across periodic sides too; `None` at other sides of the box.
     pub(crate) fn next_cell(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let [nx, ny, _] = self.size;
         let (n, stride) = (self.size[axis], [1, nx, nx * ny][axis]);
@@ -267,11 +267,11 @@ impl Mesh {
         }
     }
 
-    /// Which axes have periodic sides within this mesh.
+    /// Which axes are periodic in this mesh; y only if the mesh has all rows.
     pub(crate) fn periodic(&self) -> [bool; 3] {
         let whole = self.range.len() == self.rows().len();
-        let here = [true, whole, true];
-        std::array::from_fn(|axis| here[axis] && self.boundary[axis] == Boundary::Periodic)
+        let complete = [true, whole, true];
+        std::array::from_fn(|axis| complete[axis] && self.boundary[axis] == Boundary::Periodic)
     }
 
     /// Pores of a cell.
@@ -297,7 +297,7 @@ impl Mesh {
         self.pore_faces[range].iter().map(|&face| face as usize)
     }
 
-    /// The faces of a pore, along x, y, z, on its low side first.
+    /// The neighbours of a pore: along x, y, z, low side first.
     pub(crate) fn neighbours(&self, pore: usize) -> impl Iterator<Item = Neighbour> {
         (0..6).flat_map(move |side| {
             let (axis, up) = (side / 2, side % 2 == 1);
@@ -310,7 +310,7 @@ impl Mesh {
         })
     }
 
-    /// The connected pores around `first` that are `within`, which joins those `found`.
+    /// The pores that are connected to `first` through pores for which `within` holds. Marks them in `found`, and skips those marked.
     pub(crate) fn connected(
         &self,
         first: usize,
@@ -335,7 +335,7 @@ impl Mesh {
         self.pores[pore].cell as usize
     }
 
-    /// Whether a face is in the gap or beside it.
+    /// Whether a face has a pore in the gap or in a row next to it.
     pub(crate) fn touches_gap(&self, face: usize) -> bool {
         let [low, high] = self.faces[face].ends().map(|pore| self.row_of(pore));
         let rows = self.rows();
@@ -343,18 +343,18 @@ impl Mesh {
         gap.contains(&high) || gap.contains(&(low + 1))
     }
 
-    /// The pore of a cell that holds a voxel.
+    /// The pore of a cell to which a voxel belongs.
     pub(crate) fn pore_at(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
         self.pores_of(cell)
             .find(|&pore| self.has_voxel(pore, voxel))
     }
 
-    /// The face between two pores along an axis.
+    /// The face between two pores that are neighbours along an axis.
     pub(crate) fn face_between(&self, low: usize, high: usize, axis: usize) -> Option<usize> {
         (self.faces_of(self.cell(low), axis)).find(|&face| self.faces[face].ends() == [low, high])
     }
 
-    /// Whether a cell lies beyond an open side.
+    /// Whether a cell is a ghost cell, beyond an open side.
     pub(crate) fn is_ghost(&self, cell: usize) -> bool {
         if !self.boundary.contains(&Boundary::Open) {
             return false;

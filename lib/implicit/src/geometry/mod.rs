@@ -1,4 +1,4 @@
-//! Where liquid can be: voxels of the bodies, rows of cells between them, pores and faces.
+//! Geometry of the grid: voxels of the bodies, rows of cells, pores (control volumes) and faces.
 
 mod chords;
 mod frames;

@@ -1,8 +1,8 @@
-//! Some of the cells of a box: those that a mesh has pores in, near liquid, and those of a mesh with something in common.
+//! Sets of cells of a box, such as the active cells around the liquid.
 
 use super::mesh::{Face, Mesh};
 
-/// Some of the cells of a box, x first, then y, then z.
+/// A set of cells of a box, numbered x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Region {
     size: [usize; 3],
@@ -26,13 +26,13 @@ impl Region {
         self.cells[cell] = true;
     }
 
-    /// Whether all cells of `other` are among these.
+    /// Whether the set includes all cells of `other`.
     pub(crate) fn covers(&self, other: &Self) -> bool {
         let mut pairs = self.cells.iter().zip(&other.cells);
         pairs.all(|(own, other)| *own || !other)
     }
 
-    /// The cells at most `by` from these along each axis, over `periodic` sides too.
+    /// The set dilated by `by` cells along each axis, across `periodic` sides too.
     pub(crate) fn grown(&self, by: usize, periodic: [bool; 3]) -> Self {
         let mut region = self.clone();
         let mut counts = Vec::new();
@@ -41,7 +41,7 @@ impl Region {
             for line in 0..region.cells.len() / n {
                 let start = line / stride * stride * n + line % stride;
                 let at = |i: usize| start + i * stride;
-                // Cells of the line and of its images on both sides up to each.
+                // Prefix counts of set cells along the line, extended by its periodic images on both sides.
                 let before = if periodic[axis] { by.min(n) } else { 0 };
                 counts.clear();
                 counts.push(0_usize);
@@ -59,16 +59,16 @@ impl Region {
         region
     }
 
-    /// The cells whose neighbours, edges and corners in, are all among these.
+    /// The set eroded by one cell: cells whose neighbours, across edges and corners too, all belong to the set.
     pub(crate) fn inner(&self, periodic: [bool; 3]) -> Self {
-        let turned = |region: &Self| Self {
+        let complement = |region: &Self| Self {
             size: region.size,
             cells: region.cells.iter().map(|held| !held).collect(),
         };
-        turned(&turned(self).grown(1, periodic))
+        complement(&complement(self).grown(1, periodic))
     }
 
-    /// The cells as bits, for checkpoints.
+    /// The set as a bit mask, for checkpoints.
     pub(crate) fn bits(&self) -> Vec<u32> {
         let word = |cells: &[bool]| {
             let bits = cells.iter().enumerate();
@@ -77,7 +77,7 @@ impl Region {
         self.cells.chunks(32).map(word).collect()
     }
 
-    /// The cells of a box by their bits; `None` where there are more or fewer.
+    /// The set from a bit mask; `None` where the mask has the wrong length.
     pub(crate) fn of_bits(size: [usize; 3], bits: &[u32]) -> Option<Self> {
         let mut region = Self::new(size, false);
         let fits = bits.len() == region.cells.len().div_ceil(32);
@@ -89,7 +89,7 @@ impl Region {
 }
 
 impl Mesh {
-    /// Cells with a pore that `holds` liquid.
+    /// Cells with a pore for which `holds` is true.
     pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
         let mut region = Region::new(self.size, false);
         for (pore, of) in self.pores.iter().enumerate() {
@@ -100,7 +100,7 @@ impl Mesh {
         region
     }
 
-    /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
+    /// Whether each face borders on a cell whose neighbours are all active. Only these faces can have liquid.
     pub(crate) fn inner_faces(&self) -> Vec<bool> {
         let inner = self.region.inner(self.periodic());
         let holds = |face: &Face| {
@@ -111,7 +111,7 @@ impl Mesh {
         self.faces.iter().map(holds).collect()
     }
 
-    /// Cells that are open, as are all of their neighbours: no wall is near.
+    /// Cells that are wholly open, as are all their neighbours: no wall acts on their faces.
     pub(crate) fn wall_free_cells(&self) -> Region {
         let mut open = Region::new(self.size, false);
         let whole = (1_u32 << self.k.pow(3)) - 1;
@@ -123,7 +123,7 @@ impl Mesh {
         open.inner(self.periodic())
     }
 
-    /// Whether both cells of a face are among those.
+    /// Whether both cells of a face are in `clear`, the set of [`Self::wall_free_cells`].
     pub(crate) fn is_wall_free(&self, face: usize, clear: &Region) -> bool {
         (self.faces[face].ends().iter()).all(|&pore| clear.contains(self.cell(pore)))
     }

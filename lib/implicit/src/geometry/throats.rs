@@ -1,16 +1,16 @@
-//! How narrow the passage is that a pore lies in: perimeter over area of the section that a meniscus spans.
+//! Pore throats: perimeter over area of the cross-section that a meniscus spans, N of docs/methods.md section 3.12.
 
 use super::chords::{Chords, LONGEST_CHORD, VoxelPlace};
 use super::lattice::{Lattice, OPEN};
 use super::mesh::{Mesh, others};
 
-/// Most that a chord grows by from one voxel to the next within a passage: those of a disc grow by less, where a lumen
-/// opens into the bond line they grow by more.
+/// Largest ratio of the chord lengths of neighbouring voxels within one throat. In a disc the ratio is smaller; where a lumen
+/// opens into the bond line it is larger.
 const MAX_WIDENING: f64 = 3.0;
 
-/// Perimeter over area, 1/cells, of the passage at a pore by the two narrowest of its widths that liquid spans, 2/d each:
-/// 4/d in a tube, 2/d in a slit. Walls too far apart have none, nor has liquid that lies on one wall alone. `wet` says which
-/// pores are full.
+/// Perimeter over area of the throat at a pore, 1/cells: the sum of 2/d over its two smallest widths d that liquid spans, so 4/d
+/// in a tube and 2/d in a slit. It is 0 for walls that are too far apart and for a film on one wall. `wet` says which pores are
+/// full.
 pub(crate) fn perimeter_over_area(
     lattice: &Lattice,
     chords: &Chords,
@@ -31,7 +31,7 @@ pub(crate) fn perimeter_over_area(
     mesh.k as f64 * each.sum::<f64>() / count
 }
 
-/// Voxels and chords with a gap of so many voxels.
+/// Voxels and chord lengths at the current height of the gap, in voxels.
 struct ThroatView<'a> {
     lattice: &'a Lattice,
     chords: &'a Chords,
@@ -39,12 +39,12 @@ struct ThroatView<'a> {
     gap: f64,
 }
 
-/// A voxel of a cell.
+/// A voxel: its cell and its position in the cell.
 type Voxel = (usize, [usize; 3]);
 
 impl ThroatView<'_> {
-    /// At a voxel, 1/voxels. In plane strain the passage is as deep as can be. A width is a voxel at least: no image shows less,
-    /// and a gap that closes would pull without limit.
+    /// Perimeter over area at one voxel, 1/voxels. In plane strain the throat has no walls along z. A width counts as one voxel at
+    /// least: images resolve no less, and the capillary pressure of a closing gap would grow without limit.
     fn at_voxel(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
         let place = self.mesh.place(cell);
         let Some(place) = self.mesh.lattice_place(self.lattice, place, voxel) else {
@@ -71,8 +71,8 @@ impl ThroatView<'_> {
             .sum()
     }
 
-    /// Whether liquid spans the chord along an axis through a voxel, wet at both ends and in its middle, or the same chord no
-    /// farther off along another axis than it is long: no meniscus is deeper.
+    /// Whether liquid spans the chord along an axis through a voxel: both ends and the middle are wet, here or at a parallel chord
+    /// that is no farther off along another axis than the chord is long. No meniscus is deeper than that.
     fn is_spanned(
         &self,
         voxel: Voxel,
@@ -117,9 +117,8 @@ impl ThroatView<'_> {
         })
     }
 
-    /// Width of the passage along an axis: the longest chord beside the one through a voxel that reaches as far to both sides as
-    /// the voxel lies off it, which is that through the middle of a round section. What lies along the passage does not
-    /// count.
+    /// Width of the throat along an axis: the longest parallel chord whose half length is at least its distance from the voxel. In a
+    /// round section that is the diameter. Chords displaced along the throat's own axis, the longest chord, do not count.
     fn throat_width(&self, place: VoxelPlace, axis: usize, lengths: &[f64; 3]) -> f64 {
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let mut widest = lengths[axis];
@@ -143,7 +142,7 @@ impl ThroatView<'_> {
         widest
     }
 
-    /// Voxels that a place is thick along an axis: the gap is one place at each x and z.
+    /// Thickness of a voxel place along an axis, voxels: the gap is a single place at each x and z.
     fn thickness(&self, place: VoxelPlace, axis: usize) -> f64 {
         match place {
             VoxelPlace::Gap(_) if axis == 1 => self.gap,
@@ -151,7 +150,7 @@ impl ThroatView<'_> {
         }
     }
 
-    /// The open place beside one along an axis.
+    /// The next open place along an axis.
     fn next_place(&self, place: VoxelPlace, axis: usize, up: bool) -> Option<VoxelPlace> {
         let [nx, nz] = self.lattice.layer_size();
         let shifted = |at: usize| {

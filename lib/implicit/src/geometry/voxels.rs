@@ -1,4 +1,4 @@
-//! The voxels of a mesh: where they lie in the lattice, what fills them, and which lie beside them.
+//! The voxels of a mesh: their place in the lattice, their codes and neighbours, re-entrant edges and steps of walls.
 
 use physics::Boundary;
 
@@ -7,20 +7,21 @@ use super::lattice::{Lattice, MIRROR, OPEN};
 use super::mesh::{Face, Mesh, Pore, others};
 use super::rows::RowKind;
 
-/// Friction and exchange at half a voxel from a re-entrant edge over those of flow that is linear there, by how many voxels
-/// there are in the edge of a cell and along how many of the two axes the edge lies within a cell. Along such an edge flow is
-/// u ~ r^(2/3) sin(2 theta/3); with these factors one alone adds no c r^(-2/3) sin(2 theta/3) far from it.
+/// Factors on friction and shear half a voxel from a re-entrant edge, relative to linear profiles (docs/methods.md section 3.5).
+/// Rows: one or two voxels along the edge of a cell; columns: the number of the two transverse axes along which the edge lies
+/// inside a cell. Flow along such an edge is u ~ r^(2/3) sin(2 theta/3); with these factors a single edge adds no far field
+/// c r^(-2/3) sin(2 theta/3).
 const REENTRANT: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 
-/// Cells along a wall, rounded up, within which [`Mesh::step_proximity`] sees a step: what it says near the end of a mesh
-/// is not what it says in a longer one.
+/// Reach of [`Mesh::step_proximity`] along a wall, cells, rounded up. Nearer to the end of a mesh its result may change when the
+/// mesh grows.
 pub(crate) const STEP_REACH: usize = 2;
 
-/// A voxel: its cell and its place in it.
+/// A voxel: its cell and its position in the cell.
 type VoxelAt = (usize, [usize; 3]);
 
 impl Mesh {
-    /// Where in the lattice a voxel of the cell at a place lies; `None` beyond the layers of a part or an open side.
+    /// Lattice address of a voxel of the cell with indices x, y, z; `None` beyond the lattice.
     pub(crate) fn lattice_place(
         &self,
         lattice: &Lattice,
@@ -50,7 +51,7 @@ impl Mesh {
         }
     }
 
-    /// Places in their cell of the voxels of a pore.
+    /// Positions in their cell of the voxels of a pore.
     pub(crate) fn voxels(&self, pore: usize) -> impl Iterator<Item = [usize; 3]> {
         let Pore { voxels, .. } = self.pores[pore];
         (0..8)
@@ -58,24 +59,24 @@ impl Mesh {
             .map(|bit| self.voxel(bit))
     }
 
-    /// Whether the voxel at a place in its cell is one of a pore's.
+    /// Whether the voxel at a position in the pore's cell belongs to the pore.
     pub(crate) fn has_voxel(&self, pore: usize, voxel: [usize; 3]) -> bool {
         self.pores[pore].voxels >> self.bit(voxel) & 1 == 1
     }
 
-    /// Whether a face is open at the column of voxels along its axis through a place in a cell.
+    /// Whether a face is open at the voxel column along its axis through the position `at`.
     pub(crate) fn is_open(&self, face: usize, at: [usize; 3]) -> bool {
         let Face { open, axis, .. } = self.faces[face];
         let [s, t] = others(usize::from(axis));
         open >> (at[s] + self.k * at[t]) & 1 == 1
     }
 
-    /// The bit of the voxel at a place in its cell.
+    /// Mask bit of the voxel at a position in its cell.
     pub(super) fn bit(&self, [x, y, z]: [usize; 3]) -> usize {
         x + self.k * (y + self.k * z)
     }
 
-    /// Open voxels of a cell of the region.
+    /// Mask of the open voxels of a cell; none where the cell is not active.
     pub(super) fn open_voxels(&self, cell: usize) -> u8 {
         (0..self.k.pow(3))
             .filter(|_| self.region.contains(cell))
@@ -83,12 +84,12 @@ impl Mesh {
             .fold(0, |open, bit| open | 1 << bit)
     }
 
-    /// What fills a voxel of a cell.
+    /// Code of a voxel of a cell.
     pub(crate) fn code(&self, cell: usize, voxel: [usize; 3]) -> u8 {
         self.codes[self.k * self.k * self.k * cell + self.bit(voxel)]
     }
 
-    /// What fills a voxel of a cell, by the lattice.
+    /// Code of a voxel of a cell, looked up in the lattice.
     pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
         match self.lattice_place(lattice, self.place(cell), voxel) {
             Some(VoxelPlace::Below(layer, at)) => lattice.below[layer][at],
@@ -99,7 +100,7 @@ impl Mesh {
         }
     }
 
-    /// The voxel next to one along an axis: its cell and place; `None` beyond the mesh.
+    /// The next voxel along an axis, as cell and position; `None` beyond the mesh.
     pub(crate) fn next_voxel(
         &self,
         cell: usize,
@@ -117,8 +118,8 @@ impl Mesh {
         self.next_cell(cell, axis, up).map(|cell| (cell, voxel))
     }
 
-    /// Logarithm of the factor of friction and exchange between an open voxel and the one next to it along the first of two
-    /// axes, by re-entrant edges of walls at either side of them along the second, in cells as high as wide.
+    /// Logarithm of the re-entrant correction ([`REENTRANT`]) of friction or shear between an open voxel and its next one along `t`:
+    /// the sum over the re-entrant edges at both sides along `across`. For cubic cells.
     pub(crate) fn ln_reentrant_factor(
         &self,
         at: VoxelAt,
@@ -129,7 +130,7 @@ impl Mesh {
         for side in [false, true] {
             let step = |at: VoxelAt, axis: usize, up: bool| self.next_voxel(at.0, at.1, axis, up);
             let wall = |at: VoxelAt| self.is_wall(at);
-            // Beyond a mirror is no edge.
+            // No edge lies beyond a mirror.
             let Some(beside) = step(at, across, side) else {
                 continue;
             };
@@ -137,7 +138,7 @@ impl Mesh {
             let Some((next, opposite)) = ends else {
                 continue;
             };
-            // The solid voxel, and which way the edge lies from it.
+            // The solid voxel among the four at the edge, and on which of its sides the edge lies along `t` and `across`.
             let (solid, towards) = match [next, beside, opposite].map(wall) {
                 [Some(true), Some(false), Some(false)] => (next, [!up, side]),
                 [Some(false), Some(true), Some(false)] => (beside, [up, !side]),
@@ -145,7 +146,7 @@ impl Mesh {
                 _ => continue,
             };
             let [along, aside] = towards;
-            // Whether the walls on both sides of the edge are a cell long, for cells of two voxels.
+            // Whether both walls that meet at the edge are a cell (two voxels) long.
             let is_long = |axis: usize, up: bool, normal: usize, out: bool| {
                 let open = |at: VoxelAt| step(at, normal, out).and_then(wall) == Some(false);
                 step(solid, axis, !up).is_some_and(|on| wall(on) == Some(true) && open(on))
@@ -171,8 +172,8 @@ impl Mesh {
         (code != MIRROR).then_some(code != OPEN)
     }
 
-    /// How near a wall at an open voxel along the first of two axes ends in a step along the second: 1 within a cell, 0 from
-    /// one and a half on.
+    /// s of docs/methods.md section 3.5: whether the wall that bounds an open voxel along `t` ends in a step along `across`, 1 within
+    /// a cell, 0 from 1.5 cells on, linear between.
     pub(crate) fn step_proximity(&self, start: VoxelAt, [t, across]: [usize; 2], up: bool) -> f64 {
         let is_wall = |at: VoxelAt| self.is_wall(at);
         let mut nearest = f64::INFINITY;

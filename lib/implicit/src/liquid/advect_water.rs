@@ -1,10 +1,10 @@
-//! Water that goes with the liquid.
+//! Advection of the water that is dissolved in the liquid.
 
 use super::transport::{MAX_SWEEPS, ROUNDING};
 use crate::geometry::Mesh;
 
-/// Moves the `water` in liquid `volumes` by the liquid that crossed each face. A pore passes on the part of water that it
-/// had, or, where it passes on more than it held, that with what came in.
+/// Advects the `water` by the liquid `flux` of each face; `volumes` are those before. The flux has the water fraction of the
+/// donor before the step, or, if the donor passes on more than it held, the fraction mixed with its inflow.
 pub(super) fn advect_water(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64]) {
     let ends = |face: usize| {
         let f = mesh.faces[face];

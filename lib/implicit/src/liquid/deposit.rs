@@ -1,10 +1,10 @@
-//! Liquid at the start: what of it lies in each pore.
+//! Initial liquid: spreads the scene's points over the pores.
 
 use physics::{Points, Seed};
 
 use crate::geometry::Mesh;
 
-/// Cells of a metre and the place of the grid's origin.
+/// Origin and cell size of the grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GridOrigin {
     /// Edge of a cell, m.
@@ -16,7 +16,7 @@ pub(crate) struct GridOrigin {
 }
 
 impl GridOrigin {
-    /// Half the edges of a point of so much liquid, a cube or as deep as the domain, cells.
+    /// Half edges of a point of this volume, cells: a cube, in plane strain a square as deep as the domain.
     pub(crate) fn half(&self, volume_m3: f64) -> [f64; 3] {
         let volume = volume_m3 / self.cell_m.powi(3);
         match self.flat {
@@ -26,10 +26,11 @@ impl GridOrigin {
     }
 }
 
-/// Sums over `points` in each pore of a mesh of what `value` says of a point, each a cube of its volume.
+/// Sum of `value` over the points in each pore. A point is a box of its volume, whose value is spread over the open voxels that
+/// it overlaps.
 ///
 /// # Errors
-/// Where a point lies in a body or outside the domain.
+/// Where the centre of a point lies in a body or outside the domain.
 pub(crate) fn deposit(
     mesh: &Mesh,
     points: &Points,
@@ -49,7 +50,7 @@ pub(crate) fn deposit(
     Ok(sums)
 }
 
-/// Sides of the voxels of a mesh along an axis, cells from the origin.
+/// Coordinates of the voxel faces of a mesh along an axis, cells from the origin.
 fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let k = mesh.k;
     let side = |i: usize| {
@@ -69,7 +70,7 @@ fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
     (0..=k * mesh.size[axis]).map(side).collect()
 }
 
-/// Spreads a value over the open voxels in a box around a place, cells from the origin; `None` where the place is in none.
+/// Spreads a value over the open voxels of a box around `at` (cells from the origin); `None` where `at` itself is in no open voxel.
 fn spread(
     mesh: &Mesh,
     sides: &[Vec<f64>; 3],
@@ -78,7 +79,7 @@ fn spread(
     value: f64,
     sums: &mut [f64],
 ) -> Option<()> {
-    // Voxels, the part of the box along the axis in each, and whether the place is in it.
+    // Along an axis: voxel indices, the overlap of the box with each, and whether `at` is in it.
     let overlaps = |a: usize| -> Vec<(usize, f64, bool)> {
         let [low, high] = [at[a] - half[a], at[a] + half[a]];
         let first = sides[a]

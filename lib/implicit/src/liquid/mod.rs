@@ -1,4 +1,4 @@
-//! The liquid: the volume of it in each pore, how it starts and moves.
+//! The liquid volume of each pore: initial deposit, advection, transfer to a new mesh.
 
 mod advect_water;
 mod deposit;

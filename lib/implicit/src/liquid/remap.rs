@@ -1,4 +1,4 @@
-//! Volumes and velocities on a mesh of other rows, and the faces that are the same in both.
+//! Transfer of volumes, pressures and velocities from an old mesh to a new one, and the map of faces between the two.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::geometry::{Mesh, Region, RowKind, Rows, STEP_REACH};
 
-/// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
+/// The mesh row of `old` that is the same as a grid row of `new` below or above the gap; `None` in the gap or outside `old`.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
     let row = match new.rows().kind(row) {
         RowKind::Below => row,
@@ -18,8 +18,8 @@ fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
     old.range.contains(&row).then(|| row - old.range.start)
 }
 
-/// The cells of a box of `size` with other `rows`, those in `range`, that the `wet` cells of `old` come to lie in, and those
-/// around them up to `margin`.
+/// The active cells of a new mesh with these `rows`, those in `range`: the cells where the `wet` cells of `old` lie, and `margin`
+/// cells around them.
 pub(crate) fn remapped_region(
     old: &Mesh,
     wet: &Region,
@@ -31,7 +31,7 @@ pub(crate) fn remapped_region(
     for cell in (0..old.size.iter().product()).filter(|&cell| wet.contains(cell)) {
         let [x, _, z] = old.place(cell);
         let row = old.row(cell);
-        // Of a gap that is gone, the rows beside it.
+        // Of a gap that has closed, the rows next to it.
         let rows = match old.rows().kind(row) {
             RowKind::Below => row..row + 1,
             RowKind::Gap if rows.gap == 0 => rows.below.saturating_sub(1)..rows.below + 1,
@@ -48,13 +48,13 @@ pub(crate) fn remapped_region(
     region.grown(margin, old.periodic())
 }
 
-/// The face of another mesh that each face of a mesh is, and whether it has the same surroundings there.
+/// For each face of a new mesh: the same face of the old one, if any, and whether its surroundings are unchanged.
 #[derive(Default)]
 pub(crate) struct FaceMap(pub(crate) Vec<Option<(u32, bool)>>);
 
 impl FaceMap {
-    /// What faces of `new` are in `old`. Those beside the gap, the end of the rows or that of the region have other
-    /// surroundings.
+    /// The map from faces of `new` to those of `old`. Surroundings count as changed next to the gap, at the ends of the rows and at
+    /// the boundary of the active cells.
     pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
         let in_rows = |mesh: &Mesh, row: usize| {
             let range = &mesh.range;
@@ -87,15 +87,15 @@ impl FaceMap {
         Self((0..new.faces.len()).into_par_iter().map(found).collect())
     }
 
-    /// The face of the other mesh that a face is, where it has the same surroundings.
+    /// The old face of a face with unchanged surroundings, whose wall coupling and edges can be copied.
     pub(crate) fn unchanged(&self, face: usize) -> Option<usize> {
         let (same, whole) = self.0.get(face).copied().flatten()?;
         whole.then_some(same as usize)
     }
 }
 
-/// Rows of the mesh `old` that each row of the mesh `new` is or overlaps, with the part of it that does: both gaps have the
-/// same height.
+/// For each row of `new`: the rows of `old` that it overlaps, and the overlapping fraction of each. Both gaps have the same
+/// height.
 fn overlapping(new: &Mesh, old: &Mesh) -> Vec<Vec<(usize, f64)>> {
     let part = |row: usize, rows: usize| {
         let first = row as f64 / rows as f64;
@@ -118,7 +118,7 @@ fn overlapping(new: &Mesh, old: &Mesh) -> Vec<Vec<(usize, f64)>> {
     new.range.clone().map(of_row).collect()
 }
 
-/// Volumes of `old` on `new`; what the last row of a gap held that is gone goes to the pores beside it.
+/// Volumes of `old` on `new`. Liquid in a gap that has closed goes to the pores above and below.
 pub(crate) fn remapped_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
     let sum = |parts: &mut dyn Iterator<Item = (f64, f64)>| parts.map(|(part, of)| part * of).sum();
     let mut remapped = remapped_pores(new, old, volumes, sum);
@@ -137,12 +137,12 @@ pub(crate) fn remapped_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f
     remapped
 }
 
-/// Pressures of `old` on `new`; that of a gap that is gone is gone with it.
+/// Pressures of `old` on `new`. Those in a gap that has closed are dropped.
 pub(crate) fn remapped_pressures(new: &Mesh, old: &Mesh, pressure: &[f64]) -> Vec<f64> {
     remapped_pores(new, old, pressure, mean)
 }
 
-/// Mean of values by their parts.
+/// Weighted mean of values, given as weight and value.
 fn mean(parts: &mut dyn Iterator<Item = (f64, f64)>) -> f64 {
     let (all, sum) = parts.fold((0.0, 0.0), |(all, sum), (part, value)| {
         (all + part, sum + part * value)
@@ -150,8 +150,7 @@ fn mean(parts: &mut dyn Iterator<Item = (f64, f64)>) -> f64 {
     if all > 0.0 { sum / all } else { 0.0 }
 }
 
-/// Values of the pores of `old` on `new`: in the gap, what `join` makes of those of the rows that overlap one, each with
-/// the part of its row that does.
+/// Pore values of `old` on `new`. `combine` reduces the values of the overlapping rows, given as overlap fraction and value.
 fn remapped_pores(
     new: &Mesh,
     old: &Mesh,
@@ -168,8 +167,8 @@ fn remapped_pores(
     (0..new.pores.len()).into_par_iter().map(value).collect()
 }
 
-/// A value in a cell of `new` from those of `old` in the cells of the `rows` that its own is or overlaps: 0 where one is
-/// `at` no place there.
+/// The value of a pore or face in a cell of `new`, combined from the cells of `old` in the overlapping `rows`. `at` gives the
+/// index of the pore or face in an old cell; without one the value is 0.
 fn combined(
     (new, old, rows): (&Mesh, &Mesh, &[Vec<(usize, f64)>]),
     cell: usize,
@@ -182,7 +181,7 @@ fn combined(
     combine(&mut rows[y].iter().map(|&(y, part)| (part, value(y))))
 }
 
-/// The pores above and below a pore of a gap that is gone, or those of the nearest in the gap that have some.
+/// The pores above and below a pore of a gap that has closed; if there are none, those of the nearest gap pores that have some.
 fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == RowKind::Gap;
     let mut seen = HashSet::from([pore]);
@@ -204,7 +203,7 @@ fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     Vec::new()
 }
 
-/// The pores of the bodies above and below a pore of a gap that is gone.
+/// The pores directly above and below a pore of a gap that has closed, once for each voxel.
 fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     let [x, _, z] = old.place(old.cell(pore));
     let mut found = Vec::new();
@@ -225,14 +224,14 @@ fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     found
 }
 
-/// Values of the faces of `old`, velocities, on `new`.
+/// Face velocities of `old` on `new`.
 pub(crate) fn remapped_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Vec<f64> {
     let rows = overlapping(new, old);
     let value = |face: usize| {
         let f = new.faces[face];
         let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
         let index = face - new.faces_of(cell, axis).start;
-        // Where the bodies meet, nothing crosses.
+        // No liquid crosses where the bodies have met.
         match axis == 1 && new.row(cell) + 1 == new.rows().below && new.rows().gap == 0 {
             true => 0.0,
             false => {
@@ -248,7 +247,7 @@ pub(crate) fn remapped_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> V
 mod tests {
     use super::*;
 
-    /// What friction finds two rows from the end of a mesh is found anew when the mesh grows there.
+    /// Wall couplings within two rows of the end of a mesh are computed anew when the mesh grows there.
     #[test]
     fn faces_near_the_end_of_a_mesh_are_found_anew() {
         let [whole, short] = [0, 4].map(|start| Mesh::column_from([12, 1], 2, start));

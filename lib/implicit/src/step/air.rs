@@ -1,4 +1,4 @@
-//! Conditions where liquid ends in a step: menisci, pockets of air, liquid torn by tension.
+//! Boundary conditions at the liquid's surface in a step: menisci, pockets of air, liquid torn by tension; and the air's state.
 
 use physics::{Array, Boundary, Saved, restored};
 
@@ -7,19 +7,19 @@ use crate::air::{Air, Gas};
 use crate::geometry::DRIFT;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
-/// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
+/// Names of the checkpoint arrays of the gas in each pore, and of its counts.
 const AIR: &str = "air";
 const COUNTS: &str = "air_counts";
 
-/// The air of a run, from step to step.
+/// The air's state between steps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct AirState {
-    /// Absolute pressure over its unit times volume in each pore; empty where air has no pressure.
+    /// Gas in each pore, as absolute pressure (over the unit of viscosity) times volume; empty where all air is ambient.
     pub(super) mass: Vec<f64>,
-    /// Pockets of the last step, and millionths of their air that lie under liquid, without a pressure.
+    /// Pockets of the last step, and the gas covered by liquid, without a pressure, in millionths of all that is closed off.
     pockets: u64,
     covered: u64,
-    /// Steps whose air did not come to its pressure.
+    /// Steps at whose end a pocket did not obey the gas law.
     pub(super) unsettled: u64,
 }
 
@@ -32,7 +32,7 @@ impl Implicit {
             .collect()
     }
 
-    /// The air at the start: all is outside.
+    /// The air at the start: all has ambient pressure.
     pub(super) fn first_air(&self) -> AirState {
         let outside = |gas: Gas| self.void().iter().map(|void| gas.outside * void).collect();
         AirState {
@@ -41,7 +41,7 @@ impl Implicit {
         }
     }
 
-    /// The pockets of a step of `dt` (s), about their volumes at its start, where air has pressures.
+    /// The pockets of a step of `dt` (s), linearised about their volumes at its start; `None` where all air is ambient.
     pub(super) fn air_pockets(
         &self,
         unknowns: &Unknowns,
@@ -55,7 +55,7 @@ impl Implicit {
             |pore| fractions[pore] >= FULL,
             &self.void(),
             &self.state.air.mass,
-            // With a clamp, its body leaves room.
+            // A clamped body does not seal the sides normal to y.
             self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
         );
         for pocket in air.pockets.iter_mut().chain(&mut air.dry) {
@@ -64,7 +64,7 @@ impl Implicit {
         Some(air)
     }
 
-    /// What the liquid of a step meets where it ends; its `viscosity` is over the unit.
+    /// The boundary conditions at the surface of the liquid; `viscosity` is that of the liquid over the unit.
     pub(super) fn fronts(
         &self,
         unknowns: &Unknowns,
@@ -103,8 +103,8 @@ impl Implicit {
         Fronts::new(geometry, (unknowns, torn), around, wetting, before)
     }
 
-    /// Finds anew which pores are torn, those whose liquid would carry more tension than it can and comes apart; whether they
-    /// are others than before.
+    /// Updates which pores are `torn`, that is, have liquid under more tension than it bears (docs/methods.md section 3.10). Returns
+    /// whether any changed.
     pub(super) fn tear(
         &self,
         unknowns: &Unknowns,
@@ -124,19 +124,19 @@ impl Implicit {
             })
             .sum()
         };
-        let mut others = false;
+        let mut changed = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
                 true => outflow(pore) * dt > DRIFT,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
-            others |= now != *torn;
+            changed |= now != *torn;
             *torn = now;
         }
-        others
+        changed
     }
 
-    /// Takes in the air of a step of `dt` (s) that is over.
+    /// Stores the air at the end of a step of `dt` (s); `settled` says whether it obeys the gas law.
     pub(super) fn store_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
         let flow = &self.state.flow;
         for pocket in air.pockets.iter_mut() {
@@ -158,7 +158,7 @@ impl Implicit {
         };
     }
 
-    /// What a summary counts of the air, where it has pressures.
+    /// Counts of the air for the summary.
     pub(super) fn air_counts(&self) -> Vec<(&'static str, u64)> {
         let air = &self.state.air;
         match self.setup.gas {
@@ -177,7 +177,7 @@ impl Implicit {
         }
     }
 
-    /// The air as arrays of a checkpoint.
+    /// The air's checkpoint arrays.
     pub(super) fn save_air(&self) -> Vec<(&'static str, Array)> {
         let air = &self.state.air;
         let counts = [air.pockets, air.covered, air.unsettled].map(|count| count as f64);
@@ -190,10 +190,10 @@ impl Implicit {
         }
     }
 
-    /// The air of a checkpoint of so many pores.
+    /// The air's state from a checkpoint with this number of pores.
     ///
     /// # Errors
-    /// Where it is absent, or of no run of this scene.
+    /// Where it is absent or does not belong to this scene.
     pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<AirState, String> {
         if self.setup.gas.is_none() {
             return Ok(AirState::default());

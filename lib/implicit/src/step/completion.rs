@@ -1,4 +1,4 @@
-//! Completion of an accepted step: liquid that has moved, a gap that has closed, the step's report.
+//! Completion of an accepted step: advects the liquid, closes the gap, moves the bodies and reports.
 
 use std::time::Instant;
 
@@ -12,15 +12,15 @@ use crate::liquid::{Moved, TRACE, transport};
 use crate::settings::LARGEST_CFL;
 use crate::system::Flow;
 
-/// Most by which flow is expected to go on growing: without, steps of a flow that grows are solved twice; a flow that starts is no
-/// trend.
+/// Bound on the extrapolated growth of the flow speed from step to step. Without extrapolation every step of an accelerating flow
+/// would be repeated; the growth of a flow that starts is no trend.
 const MAX_FORESEEN_GROWTH: f64 = 1.25;
-/// Fraction of the faces, the fastest, that the Courant number ignores: of more, liquid goes astray; of none, jets through holes of a
-/// voxel set the step.
+/// Fraction of the faces, the fastest ones, that the Courant number ignores. A larger one misplaces liquid; with none, jets
+/// through holes of one voxel would set the step length.
 const IGNORED_FACES: f64 = 1e-3;
 
 impl Implicit {
-    /// Completes an accepted step.
+    /// Completes an accepted step and returns its report.
     pub(super) fn complete_step(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
         let Solved {
             dt,
@@ -74,15 +74,15 @@ impl Implicit {
         if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
             self.store_air(gas, air, settled, dt);
         }
-        // A state has no row without height.
+        // Between steps no row has zero height.
         if self.setup.lattice.moving.is_some() && self.height == 0.0 {
             self.update_mesh();
         }
         report
     }
 
-    /// Closes the gap by a `travel` (cells) and moves the liquid by the `velocity` of each face in a step of `dt` (s): from pores
-    /// that were `full` or not, less what it loses.
+    /// Closes the gap by `travel` (cells), moves the water of `exchange`, and advects the liquid by the face `velocity` over a step of
+    /// `dt` (s). `full` says which pores were full.
     fn move_liquid(
         &mut self,
         travel: f64,
@@ -92,7 +92,7 @@ impl Implicit {
         dt: f64,
     ) {
         let begun = Instant::now();
-        // Liquid moves through the faces of the middle of the step into the pores of its end.
+        // Liquid moves through faces as they are in the middle of the step, into pore volumes as they are at its end.
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
             let height = self.height - travel;
@@ -131,7 +131,7 @@ impl Implicit {
         state.lost += lost;
     }
 
-    /// Moves the bodies by a `travel` of the clamp (cells) and by what slides in a step of `dt` (s).
+    /// Moves the bodies: by the clamp's `travel` (cells), and sliding walls by their velocity over a step of `dt` (s).
     fn move_bodies(&mut self, travel: f64, dt: f64) {
         let (lattice, cell_m) = (&self.setup.lattice, self.setup.units.cell_m);
         for (body, displacement) in self.state.displacement.iter_mut().enumerate() {
@@ -149,7 +149,8 @@ impl Implicit {
     }
 }
 
-/// Cells a second that count: those of the fastest faces but for jets through single voxels, which may cross more.
+/// Flow speed for the Courant number, cells/s: that of the fastest faces but for the ignored ones, which may reach
+/// [`LARGEST_CFL`] cells a step.
 pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
     let mut speeds: Vec<f64> = (flow.velocity.iter())
         .filter(|v| **v != 0.0)

@@ -1,37 +1,36 @@
-//! Speed of the body that closes the gap: constant, or that of a clamp under load control.
+//! Speed of the moving body: constant, or that of a clamp under load control or a press programme.
 
 use physics::{CONTROLLED, Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
 
 use crate::settings::MISSED;
 
-/// Speed of the clamp.
+/// Control of the clamp's speed.
 #[derive(Clone, Copy, Debug, Default)]
 enum Control {
-    /// Nothing is clamped, or at constant speed.
+    /// No clamp, or one at constant speed.
     #[default]
     Free,
-    /// At full speed until that would exceed the limit; held at the limit then, and at full speed again
-    /// where that no longer reaches it.
+    /// Full speed while the pressure is below the limit; else the speed that keeps the limit.
     Limit(LoadControl),
-    /// By the case's PID, after each step.
+    /// The case's PID sets the speed after each step.
     Pid(PidControl),
 }
 
-/// A clamp under its own load control.
+/// Load control: an upper limit on pressure, which is active or not.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoadControl {
-    /// Largest speed, and the least, below zero where the clamp gives way, m/s.
+    /// Largest and least speed, m/s; the least is negative where the clamp may retreat.
     speeds: [f64; 2],
-    /// Pressure limit, and the least that excess over it is measured by, Pa.
+    /// Pressure limit, and the lower bound on its scale of error, Pa.
     pub(super) limit: f64,
     min_scale: f64,
     active: bool,
-    /// Whether it is to press no more.
+    /// Whether the stage releases the pressure.
     releases: bool,
 }
 
 impl LoadControl {
-    /// That of the stage that is on.
+    /// The control of the programme's current stage.
     fn of(programme: &PressRun) -> Self {
         let stage = programme.stage();
         let full = match programme.is_closed() {
@@ -42,20 +41,20 @@ impl LoadControl {
         Self {
             speeds: [full, -stage.speed],
             limit: programme.set_pressure(0.0),
-            // A release holds nothing, by which no residual can be measured.
+            // A release has a limit of zero, which is no scale for a residual.
             min_scale: MISSED * programme.largest(),
             active: releases,
             releases,
         }
     }
 
-    /// What excess over the limit is measured by, Pa.
+    /// Scale of errors in the pressure, Pa.
     pub(super) fn scale(&self) -> f64 {
         self.limit.max(self.min_scale)
     }
 }
 
-/// The drive of the body that closes the gap.
+/// The drive of the moving body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClampDrive {
     control: Control,
@@ -63,7 +62,7 @@ pub(super) struct ClampDrive {
     programme: Option<PressRun>,
     /// Closing speed now, m/s.
     pub(super) speed: f64,
-    /// Steps that did not keep the pressure limit, and the pressure of the last step if it is one, Pa.
+    /// Number of steps that exceeded the pressure limit, and the pressure of the last step if it did, Pa.
     pub(super) violations: (u64, f64),
 }
 
@@ -99,30 +98,30 @@ impl ClampDrive {
         }
     }
 
-    /// The press programme and where it is.
+    /// The press programme and its state.
     pub(super) fn programme(&self) -> Option<&PressRun> {
         self.programme.as_ref()
     }
 
-    /// Whether the clamp has gone all its way in a programme that goes on.
+    /// Whether a programme goes on with the clamp at the end of its travel.
     pub(super) fn is_closed(&self) -> bool {
         self.programme.as_ref().is_some_and(PressRun::is_closed)
     }
 
-    /// Speed, m/s, at which the clamp gives way where it does at once.
+    /// Retreat speed of the clamp, m/s, in a stage that begins below the pressure reached, so that the clamp may retreat at once.
     pub(super) fn retreat_speed(&self) -> Option<f64> {
         let programme = self.programme.as_ref().filter(|run| run.gives_way());
         programme.map(|run| run.stage().speed)
     }
 
-    /// A limit of a step within the stage that is on, for a clamp that has travelled `travel` (m).
+    /// `limit`, shortened to the current stage, for a clamp that has travelled `travel` (m).
     pub(super) fn bounded_by_stage(&self, limit: StepLimit, travel: f64) -> StepLimit {
         let programme = self.programme.as_ref();
         programme.map_or(limit, |programme| programme.within(limit, travel))
     }
 
-    /// Sets the pressure limit to that `ahead` (s) of now. The speed of a held clamp is expected to change with it: viscous
-    /// liquid answers a force in proportion.
+    /// Sets the pressure limit to that of the programme `ahead` (s) of now. Under an active limit the estimated speed changes in
+    /// proportion, as that of viscous flow does.
     pub(super) fn set_limit_ahead(&mut self, ahead: f64) {
         let (Some(programme), Control::Limit(control)) = (&self.programme, &mut self.control)
         else {
@@ -136,7 +135,7 @@ impl ClampDrive {
         }
     }
 
-    /// What the clamp is held at, its speed being unknown.
+    /// The load control if its limit is active, so that the speed is an unknown.
     pub(super) fn active_load_control(&self) -> Option<LoadControl> {
         match self.control {
             Control::Limit(control) if control.active => Some(control),
@@ -144,8 +143,8 @@ impl ClampDrive {
         }
     }
 
-    /// The limit where `pressure` (Pa) at full speed exceeds it: the clamp is held from now
-    /// on, and `speed` is a guess at its speed.
+    /// Activates the limit if `pressure` (Pa) at full speed exceeds it, and estimates the speed at the limit. Returns the load
+    /// control if it did.
     pub(super) fn activate_if_exceeded(&mut self, pressure: f64) -> Option<LoadControl> {
         let Control::Limit(control) = &mut self.control else {
             return None;
@@ -158,9 +157,9 @@ impl ClampDrive {
         Some(*control)
     }
 
-    /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
-    /// moves at the nearest speed that it can: it goes no faster than at full speed, and without a
-    /// programme stands where compressed liquid would open it.
+    /// Sets the speed to the nearest that the clamp can have to `speed` (m/s), that of the limit; returns whether they are equal. Its
+    /// bounds are the full speed, at which the limit becomes inactive, and zero without a programme: compressed liquid does not
+    /// open the clamp.
     pub(super) fn accept_speed(&mut self, speed: f64) -> bool {
         let Control::Limit(control) = &mut self.control else {
             return true;
@@ -171,11 +170,10 @@ impl ClampDrive {
         self.speed == speed
     }
 
-    /// Takes in the pressure (Pa) of a step of `dt` (s) that is over, after which the clamp has travelled
-    /// `travel` (m).
+    /// Updates the control by the `pressure` (Pa) of a completed step of `dt` (s), after which the clamp has travelled `travel` (m).
     pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
         let bounds = match &self.control {
-            // A release has no limit: air that expands presses the body on as fast as it gives way.
+            // A release has no limit to exceed: expanding air keeps pressing on a retreating body.
             Control::Limit(control) if control.releases => None,
             Control::Limit(control) => Some((control.limit, control.scale())),
             Control::Pid(pid) => pid.limit().map(|limit| (limit, limit)),
@@ -203,7 +201,7 @@ impl ClampDrive {
                 *control = LoadControl::of(programme);
                 let kind = programme.stage().kind;
                 if !next || before.active && kind != Press::Approach && before.limit > 0.0 {
-                    // Speed and limit of the last step say what those of the next are.
+                    // The speed and the limit of the last step are the estimate for the next.
                     (control.active, control.limit) =
                         (before.active || control.active, before.limit);
                     self.speed = self.speed.min(control.speeds[0]);
@@ -218,7 +216,7 @@ impl ClampDrive {
         }
     }
 
-    /// The changing part, for checkpoints.
+    /// The state for checkpoints.
     pub(super) fn state(&self) -> [f64; 7] {
         let rest = match (&self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.state(),
@@ -232,7 +230,7 @@ impl ClampDrive {
         [self.speed, held, steps, pressure, rest[0], rest[1], rest[2]]
     }
 
-    /// Goes back to a saved changing part, of a programme that is back where it was.
+    /// Restores a saved state; that of the programme must have been restored before.
     pub(super) fn set_state(&mut self, [speed, was_held, steps, pressure, a, b, c]: [f64; 7]) {
         (self.speed, self.violations) = (speed, (steps as u64, pressure));
         match (&mut self.control, &self.programme) {
@@ -248,10 +246,10 @@ impl ClampDrive {
         }
     }
 
-    /// Goes back to a saved place in the programme.
+    /// Restores the saved state of the programme.
     ///
     /// # Errors
-    /// A sentence where no run of it saves that.
+    /// A sentence where the state is none of this programme's.
     pub(super) fn set_programme(&mut self, state: &[f64]) -> Result<(), String> {
         (self.programme.as_mut()).map_or(Ok(()), |programme| programme.set_state(state))
     }
@@ -286,7 +284,7 @@ mod tests {
         assert_eq!(broken, [(0, 0.0), (1, 1.021e6), (2, 1.03e6), (2, 0.0)]);
     }
 
-    /// Air presses on a body that gives way as fast as it can; in a hold the same breaks the limit.
+    /// Expanding air presses on a body that retreats at full speed; in a hold the same pressure exceeds the limit.
     #[test]
     fn a_release_has_no_limit_to_break() {
         let broken = [Press::Hold, Press::Release].map(|kind| {

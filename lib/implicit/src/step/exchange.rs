@@ -1,10 +1,9 @@
-//! Water that moves in a step: by diffusion between pores and at a given rate into their walls, until a pore holds no
-//! more than walls leave.
+//! Water that moves in a step: by diffusion between pores, and at a given rate into walls until the liquid reaches the limit.
 //!
-//! X, water over solids by volume, obeys in each pore V_s (X - X_0) = sum K (X_n - X) - q, X >= X_min, where V_s is the
-//! solids' volume, K = D dt/h^2 A/L (1 - f), f the part of water, A the liquid area and L the distance between two
-//! pores, and q what the wetted walls take in the step, all of what they ask for where X > X_min. Velocities are those of
-//! the solids, against which water diffuses at D (1 - f) grad X.
+//! X, water over solids by volume, obeys in each pore V_s (X - X_0) = sum K (X_n - X) - q, X >= X_min. V_s is the volume of the
+//! solids; K = D dt/h^2 A/L (1 - f) with f the water fraction, A the liquid area and L the distance between two pores; q is the
+//! uptake of the wetted walls in the step, the whole demand where X > X_min. Velocities are those of the solids, relative to
+//! which water diffuses at D (1 - f) grad X.
 
 use physics::Water;
 
@@ -13,22 +12,22 @@ use super::water::WaterBalance;
 use crate::liquid::TRACE;
 use crate::water::{Node, Walls, solve};
 
-/// What a step moves.
+/// Water moved in a step, and its effect on the viscosity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct WaterExchange {
-    /// Water that each pore gains, and that its walls take, cells.
+    /// Water that each pore gains, and that its walls take up, cells.
     pub(super) gained: Vec<f64>,
     pub(super) taken: Vec<f64>,
     /// Factor of the viscosity of each pore in the middle of the step.
     pub(super) factor: Vec<f64>,
-    /// Mean of the change of ln(viscosity), weighted by the water that pores give off or take up.
+    /// Mean change of ln(viscosity), weighted by the water that pores lose or gain.
     pub(super) change: f64,
     /// Mean of 1/factor over the liquid at the end of the step.
     pub(super) fluidity: f64,
 }
 
 impl WaterExchange {
-    /// That of `nodes` among so many `pores` that come to a `ratio` of water to solids, some of them held `at_limit`.
+    /// The exchange by which `nodes` reach the water `ratio`, some of them `at_limit`. `pores` is the number of all pores.
     fn new(
         nodes: &[Node],
         pores: usize,
@@ -46,7 +45,7 @@ impl WaterExchange {
             let pore = node.pore as usize;
             let flow = node.inflow(&ratio, n);
             let gained = match at_limit[n] {
-                // Walls give nothing back.
+                // Walls do not release water.
                 true => (node.solids * (ratio[n] - node.ratio)).min(flow),
                 false => flow - node.demand,
             };
@@ -65,7 +64,7 @@ impl WaterExchange {
 }
 
 impl Implicit {
-    /// What a step of `dt` (s) moves of the water, in pores filled to `fractions` in its middle.
+    /// The water exchange of a step of `dt` (s), in which pores are filled to `fractions` in its middle.
     pub(super) fn exchange(
         &self,
         dt: f64,
@@ -85,7 +84,7 @@ impl Implicit {
         Ok(Some(WaterExchange::new(&nodes, pores, water, solved)))
     }
 
-    /// The pores with liquid and what passes between them.
+    /// The nodes of the water balance: pores with liquid, their demand and conductances.
     fn nodes(
         &self,
         dt: f64,
@@ -93,7 +92,7 @@ impl Implicit {
         (water, walls, wet): (&Water, &Walls, &WaterBalance),
     ) -> Vec<Node> {
         let (mesh, h) = (&self.mesh, self.setup.units.cell_m);
-        // What walls hold per area, and take of it, cells; and what differences of X pass on between cells.
+        // Capacity and uptake of walls per area, cells; and the conductance between whole cells.
         let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
         let (uptake, diffusion) = (dt * water.uptake() / h, dt * water.diffusivity() / (h * h));
         let mut number = vec![None; mesh.pores.len()];

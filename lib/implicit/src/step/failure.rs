@@ -14,7 +14,7 @@ impl Implicit {
         ))
     }
 
-    /// Attempts at a step of which none was short enough; the last one because the liquid `dries`.
+    /// The failure after the last attempt at a step was too long still; `dries` if because of the loss of water.
     pub(super) fn no_acceptable_length(&self, dries: bool) -> Failure {
         let why = match dries {
             true => "the liquid dries too fast for any: a smaller uptake, a larger diffusivity or a flatter \
@@ -29,7 +29,7 @@ impl Implicit {
         self.failure(&format!("no acceptable time step was found: {why}"))
     }
 
-    /// A system of the step that was not solved.
+    /// The message for a linear system that was not solved.
     pub(super) fn unsolved(&self, error: &SolveError) -> String {
         match error {
             SolveError::NotFinite { .. } => format!(
@@ -44,7 +44,7 @@ impl Implicit {
     }
 }
 
-/// What to change in a case with cells of `k` voxels.
+/// What to change in a case, with cells of `k` voxels.
 fn advice(cause: Cause, k: usize) -> String {
     match cause {
         Cause::Unbalanced { cells } => format!(

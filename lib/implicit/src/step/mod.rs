@@ -1,4 +1,4 @@
-//! The scheme, and the order of one step.
+//! The scheme and the order of a step (docs/methods.md section 3.1).
 
 mod air;
 mod clamp;
@@ -31,15 +31,15 @@ use drive::ClampDrive;
 use setup::Setup;
 use water::WaterBalance;
 
-/// Attempts at a step of acceptable length; the second nearly always is.
+/// Bound on the attempts at a step; the second nearly always has an acceptable length.
 const ATTEMPTS: usize = 8;
-/// Excess over the Courant number that a step may have: so few steps are solved twice.
+/// Factor by which a step may exceed the Courant number, so that few steps are solved twice.
 const CFL_EXCESS: f64 = 1.1;
-/// Most that cure changes ln(viscosity) by in a step, and what one aims at where the liquid dries: its middle then differs from
-/// the mean of 1/viscosity by 0.17 %.
+/// Largest change of ln(viscosity) in a step by cure, and the target by loss of water: 1/viscosity in the middle of the step then
+/// differs from its mean by 0.17 %.
 pub(crate) const LN_VISCOSITY_STEP: f64 = 0.2;
-/// Most that a step grows by where menisci are held: they break loose from rest, where no speed tells how long a step may be, and
-/// steps that may grow at once come no nearer to rest (docs/decisions/menisci.md).
+/// Largest ratio of successive step lengths with menisci. A pinned meniscus breaks loose from rest, where no speed bounds the
+/// step, and steps that grow at once do not settle to rest (docs/decisions/menisci.md).
 const GROWTH: f64 = 2.0;
 
 /// The implicit scheme on a scene.
@@ -49,18 +49,18 @@ pub struct Implicit {
     mesh: Mesh,
     couplings: WallCouplings,
     edges: Edges,
-    /// Walls of the mesh that take water.
+    /// Absorbing walls of the mesh.
     walls: Option<Walls>,
-    /// Height of the gap between steps, cells; in a step, the mesh has that in its middle.
+    /// Height of the gap between steps, cells. During a step the mesh has the height of its middle.
     height: f64,
     solver: SaddleSolver,
     clock: Clock,
 }
 
-/// What changes from step to step.
+/// The state that changes from step to step.
 #[derive(Default)]
 struct State {
-    /// Liquid in each pore at no pressure, cells.
+    /// Liquid volume of each pore at zero pressure, cells.
     volumes: Vec<f64>,
     flow: Flow,
     drive: ClampDrive,
@@ -73,21 +73,21 @@ struct State {
     steps: u64,
     /// Length of the last step, s.
     dt: f64,
-    /// Fastest flow, cells/s, and by what factor it is expected to be faster in the next step.
+    /// Flow speed of the last step for the Courant number, cells/s, and its expected growth to the next step, a factor.
     fastest: f64,
     growth: f64,
-    /// Liquid that left the domain, cells.
+    /// Liquid volume that left the domain, cells.
     lost: f64,
     /// Viscous dissipation, over the unit of viscosity.
     power: f64,
-    /// Steps whose passes did not settle.
+    /// Steps whose iterations did not converge.
     unsettled: u64,
-    /// Of a liquid that loses water.
+    /// The water balance of a liquid that loses water.
     wet: Option<WaterBalance>,
 }
 
 impl Implicit {
-    /// The scheme for `scene`.
+    /// Sets up the scheme for `scene`.
     ///
     /// # Errors
     /// A sentence on what this scheme cannot do with the scene or the settings.
@@ -132,7 +132,7 @@ impl Implicit {
         Ok(scheme)
     }
 
-    /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
+    /// Takes one step: remeshes, then solves with shorter and shorter lengths until one is acceptable, and completes it.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         let limit = self.state.drive.bounded_by_stage(limit, self.state.travel);
         if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
@@ -166,7 +166,7 @@ impl Implicit {
                 return Ok(self.complete_step(solved, limit));
             }
             longest = solved.dt * self.setup.settings.cfl / crossed;
-            // A pocket without air collapses by the same volume in a step of any length.
+            // A pocket without air collapses by the same volume whatever the length, so the speed grows as the step shrinks.
             if attempt > 0 && self.setup.gas.is_some() {
                 longest = longest.min(0.5 * solved.dt);
             }
@@ -174,33 +174,34 @@ impl Implicit {
         Err(self.no_acceptable_length(dries))
     }
 
-    /// Time in which the flow of the last step, as it grows, crosses a cell, s.
+    /// Time in which the flow of the last step, times its expected growth, crosses a cell, s.
     fn cell_crossing_time(&self) -> f64 {
         let fastest = self.state.fastest.max(self.state.flow.speed.abs());
         1.0 / (self.state.growth * fastest)
     }
 
-    /// Length of the next step by the flow of the last, s.
+    /// Length of the next step by the flow of the last one, s.
     fn step_length(&self, limit: StepLimit) -> f64 {
         let (state, liquid, units) = (&self.state, &self.setup.liquid, self.setup.units);
         let cfl = self.setup.settings.cfl;
         let mut dt = (cfl * self.cell_crossing_time()).min(limit.time_s);
-        // The viscosity of a liquid that cures is that of the middle of the step.
+        // A step has the viscosity of its middle, so cure must not change it much.
         if let Some(cure) = &liquid.cure {
             dt = dt.min(cure.steady(state.time, LN_VISCOSITY_STEP));
         }
         if let Some(wet) = &state.wet {
             dt = dt.min(wet.steady_time());
         }
-        // From rest, weight sets the speed.
+        // The first step starts from rest, where weight sets the speed.
         if state.steps == 0 {
             dt = dt.min((2.0 * cfl / self.setup.gravity_acceleration()).sqrt());
         }
-        // From rest, a clamp that lets go is no faster than it can; how fast it is with air behind it, no step before tells.
+        // A clamp that starts to retreat is bounded by its full speed only: with air behind it no earlier step tells the speed.
         if let Some(speed) = state.drive.retreat_speed() {
             dt = dt.min(cfl * units.cell_m / speed);
         }
-        // From rest, no meniscus outruns tension over viscosity; what holds one is known by the speed of the step before.
+        // The first step is bounded by the capillary speed, tension over viscosity. Later ones may grow by a factor only, since
+// contact-line friction is evaluated at the velocity of the step before.
         if let Some(wetting) = liquid.wetting {
             dt = dt.min(match state.steps {
                 0 => units.cell_m * units.viscosity / wetting.tension,
@@ -209,7 +210,7 @@ impl Implicit {
         }
         match self.travel_left(limit) {
             left if left > 0.0 => dt.min(left / state.flow.speed.max(f64::MIN_POSITIVE)),
-            // The clamp is where it was to go.
+            // The clamp has reached the end of its travel.
             _ => dt,
         }
     }

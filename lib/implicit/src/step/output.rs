@@ -1,4 +1,4 @@
-//! The liquid as points, as states and metrics take it: one in each voxel of a pore with liquid.
+//! The liquid as material points for states and metrics: one in each voxel of a pore with liquid.
 
 use physics::LiquidState;
 use rayon::prelude::*;
@@ -8,10 +8,10 @@ use crate::liquid::TRACE;
 use crate::system::{FlowField, Profile};
 
 impl Implicit {
-    /// The points of the liquid.
+    /// The material points of the liquid.
     pub(super) fn points(&self) -> LiquidState {
         let (mut state, shown) = self.filled_voxels();
-        // The walls of the gap of now: the last step's are of that in its middle.
+        // Wall couplings at the current gap height; those at hand belong to the middle of the last step.
         let mut couplings = self.couplings.clone();
         let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
@@ -41,7 +41,7 @@ impl Implicit {
         state
     }
 
-    /// Positions and volumes of the points alone, and their pores.
+    /// Points with positions and volumes only, and the pores that have points.
     pub(super) fn filled_voxels(&self) -> (LiquidState, Vec<usize>) {
         let (mesh, origin) = (&self.mesh, self.setup.origin);
         let mut state = LiquidState::default();
@@ -72,7 +72,7 @@ impl Implicit {
         (state, shown)
     }
 
-    /// Volume of the liquid of a pore over that at no pressure, Tait's J.
+    /// J of a pore by Tait's law: liquid volume over that at zero pressure.
     pub(super) fn compressed(&self, pore: usize) -> f64 {
         let pressure = self.state.flow.pressure[pore] * self.setup.units.viscosity;
         1.0 + self.setup.liquid.tait.volume_change(pressure)

@@ -1,4 +1,4 @@
-//! The mesh follows the liquid and the gap.
+//! Remeshing: the active cells follow the liquid, and the rows the gap.
 
 use super::Implicit;
 use crate::geometry::{Mesh, Rows};
@@ -9,35 +9,35 @@ use crate::settings::LARGEST_CFL;
 use crate::system::{Edges, WallCouplings};
 use crate::water::Walls;
 
-/// Cells around the liquid that a mesh has: twice those that it comes to lie in within a step. The mesh is made anew where half of
-/// them are left.
+/// Active cells around the liquid at remeshing: twice the distance that liquid covers in a step. The mesh is built anew where fewer
+/// than half of them are left.
 pub(super) const MARGIN: usize = 2 * (LARGEST_CFL as usize + 1);
 
 impl Implicit {
-    /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
+    /// Builds the mesh anew if the number of gap rows changes or the liquid is close to the edge of the active cells.
     pub(super) fn update_mesh(&mut self) {
         self.mesh.set_height(self.height);
         let mesh = &self.mesh;
         let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height);
         let wet = mesh.cells_with(|pore| self.state.volumes[pore] > 0.0);
         let wet_rows = self.wet_rows();
-        let near =
+        let is_close =
             |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN / 2;
         if !self.couplings.is_empty()
             && rows.gap == mesh.rows().gap
-            && !near(wet_rows.start, mesh.range.start, 0)
-            && !near(wet_rows.end, mesh.range.end, mesh.rows().len())
+            && !is_close(wet_rows.start, mesh.range.start, 0)
+            && !is_close(wet_rows.end, mesh.range.end, mesh.rows().len())
             && (mesh.region).covers(&wet.grown(MARGIN / 2, mesh.periodic()))
         {
             return;
         }
         let end = (wet_rows.end + rows.gap - mesh.rows().gap).max(wet_rows.start) + MARGIN;
-        let near = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
+        let range = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
         let lattice = &self.setup.lattice;
         let mesh = match self.setup.gas {
             None => {
-                let region = remapped_region(mesh, &wet, (&rows, &near), MARGIN);
-                Mesh::new(lattice, rows, near, region)
+                let region = remapped_region(mesh, &wet, (&rows, &range), MARGIN);
+                Mesh::new(lattice, rows, range, region)
             }
             // Air may be closed off anywhere.
             Some(_) => Mesh::whole(lattice, rows, 0..rows.len()),
@@ -61,7 +61,7 @@ impl Implicit {
         self.rebuild_walls(&face_map);
     }
 
-    /// Finds what the walls of the mesh do, but for faces that are `kept` from the one before.
+    /// Computes wall couplings, edges and absorbing walls of the mesh; `face_map` says which faces keep those of the old mesh.
     pub(super) fn rebuild_walls(&mut self, face_map: &FaceMap) {
         let (setup, mesh) = (&self.setup, &self.mesh);
         let water = setup.liquid.water.as_ref();
@@ -70,7 +70,7 @@ impl Implicit {
         self.edges = Edges::new(mesh, &setup.lattice, face_map, &self.edges);
     }
 
-    /// Rows of the grid that hold liquid, and those of the gap.
+    /// The range of grid rows that covers the liquid and the gap.
     fn wet_rows(&self) -> std::ops::Range<usize> {
         let mesh = &self.mesh;
         let gap = mesh.rows().below..mesh.rows().below + mesh.rows().gap;

@@ -1,4 +1,4 @@
-//! `physics::Scheme` of the implicit scheme: what it shows, saves and restores.
+//! `physics::Scheme` for the implicit scheme: diagnostics, output, checkpoints, objections.
 
 use physics::{
     Array, Diagnostics, Failure, LiquidState, PressRun, SET, Saved, Saving, Scheme, StageTime,
@@ -9,7 +9,7 @@ use super::Implicit;
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::FaceMap;
 
-/// Name of the array that holds where the press programme is.
+/// Name of the checkpoint array of the press programme's state.
 const PROGRAMME: &str = "programme";
 
 impl Scheme for Implicit {
@@ -173,7 +173,7 @@ impl Scheme for Implicit {
     }
 
     fn has_set(&self) -> bool {
-        // As thick by its loss of water, with cure, as one that has set.
+        // Set if loss of water and cure together reach the viscosity of a set liquid.
         let cure = self.setup.liquid.cure.as_ref();
         let cured = cure.map_or(1.0, |cure| cure.factor(self.state.time) / cure.factor(0.0));
         (self.state.wet.as_ref()).is_some_and(|wet| wet.fluidity / cured <= 1.0 / SET)
@@ -204,7 +204,7 @@ impl Scheme for Implicit {
     }
 
     fn objection(&self) -> Option<String> {
-        /// Part of the steps that may be so: a few settle late in sound runs.
+        /// Accepted share of such steps: a few converge late in sound runs.
         const MOST: f64 = 0.1;
         let steps = self.state.steps;
         let (above, pressure) = self.state.drive.violations;
@@ -234,7 +234,7 @@ impl Scheme for Implicit {
 }
 
 impl Implicit {
-    /// The mesh of a checkpoint, of a gap of `height`.
+    /// The mesh of a checkpoint with a gap of `height` cells.
     fn saved_mesh(&self, saved: &Saved, height: f64) -> Result<Mesh, String> {
         let &[gap, start, end] = saved.u32s("rows")? else {
             return Err("the checkpoint's rows are not those of this scheme".into());

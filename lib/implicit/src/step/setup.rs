@@ -1,4 +1,4 @@
-//! The parts of a run that never change, made of the scene.
+//! The constant part of a run, from the scene.
 
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ impl Units {
     }
 }
 
-/// What never changes in a run.
+/// The constant part of a run.
 pub(super) struct Setup {
     pub(super) settings: Settings,
     pub(super) lattice: Lattice,
@@ -46,23 +46,23 @@ pub(super) struct Setup {
     pub(super) influence_length: f64,
     pub(super) bottom: Option<usize>,
     pub(super) top: Option<usize>,
-    /// Points of the scene over the cells that they fill.
+    /// Number of the scene's points per cell of liquid.
     pub(super) points_per_cell: f64,
-    /// Area that pressures refer to, m2.
+    /// Reference area of pressures, the cross-section of the domain, m2.
     area: f64,
     /// Whether there is a clamp, and whether it has a pressure limit.
     pub(super) clamped: bool,
     pub(super) limited: bool,
-    /// Air that has pressures where it is closed off.
+    /// The gas law of pockets; `None` where all air is ambient.
     pub(super) gas: Option<Gas>,
-    /// Bodies that take water.
+    /// Whether each body absorbs water.
     pub(super) absorbs: Vec<bool>,
-    /// How each body moves.
+    /// Motion of each body.
     pub(super) motions: Vec<Motion>,
 }
 
 impl Setup {
-    /// The setup of a scene, its first mesh, and the liquid in its pores.
+    /// The setup of a scene, its first mesh, and the liquid volume of each pore.
     ///
     /// # Errors
     /// A sentence on what the scheme cannot do with the scene.
@@ -122,7 +122,7 @@ impl Setup {
         Ok((setup, mesh, volumes))
     }
 
-    /// What the friction of the walls of a mesh is found from.
+    /// The inputs of the wall couplings of a mesh.
     pub(super) fn channels<'a>(&'a self, mesh: &'a Mesh) -> Channels<'a> {
         Channels {
             lattice: &self.lattice,
@@ -132,8 +132,8 @@ impl Setup {
         }
     }
 
-    /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean
-    /// of the points, of which pores hold these `volumes`, in the pores on its two sides.
+    /// Initial velocity of each face relative to the grid, cells/s: the volume mean of the points in the two pores of the face.
+    /// `volumes` is the liquid in each pore, `speed` the closing speed, cells/s, at which the grid moves.
     ///
     /// # Errors
     /// As [`deposit`].
@@ -189,7 +189,7 @@ impl Setup {
         !matches!(self.liquid.viscosity, Viscosity::Newtonian(_))
     }
 
-    /// What multiplies the terms of a step of `dt` (s).
+    /// Coefficients of the equations of a step of `dt` (s).
     pub(super) fn scales(&self, dt: f64) -> Scales {
         let (h, eta) = (self.units.cell_m, self.units.viscosity);
         let density = self.liquid.density;
@@ -203,7 +203,7 @@ impl Setup {
         }
     }
 
-    /// Acceleration by weight, cells/s2.
+    /// Acceleration by gravity, cells/s2.
     pub(super) fn gravity_acceleration(&self) -> f64 {
         self.gravity.iter().map(|g| g * g).sum::<f64>().sqrt() / self.units.cell_m
     }
@@ -219,7 +219,7 @@ impl Setup {
     }
 }
 
-/// Rows that hold points, those of the gap, and some around them.
+/// The range of rows that covers the points and the gap, and a margin around them.
 fn rows_of(points: &Points, rows: Rows, origin: GridOrigin) -> Range<usize> {
     let gap = [0.0, rows.height];
     let [low, high] = points.seeds().fold(gap, |[low, high], point| {
@@ -234,7 +234,7 @@ fn rows_of(points: &Points, rows: Rows, origin: GridOrigin) -> Range<usize> {
 }
 
 impl Lattice {
-    /// Rows at the start.
+    /// The rows of the grid at the start.
     pub(crate) fn rows(&self) -> Rows {
         let open = usize::from(self.boundary[1] == physics::Boundary::Open);
         let cells = |layers: usize| layers.div_ceil(self.k);

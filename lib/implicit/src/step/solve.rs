@@ -1,4 +1,4 @@
-//! Solution of a step: which pores are full, and the flow.
+//! Solution of the flow of a step, iterated over all that depends on it (docs/methods.md section 3.1, item 4).
 
 use std::mem::take;
 use std::time::Instant;
@@ -14,25 +14,25 @@ use crate::system::{
     solve, stiffnesses,
 };
 
-/// A step that was solved.
+/// A solved step.
 pub(super) struct Solved {
     pub(super) dt: f64,
     pub(super) flow: Flow,
     pub(super) full: Vec<bool>,
     pub(super) forces: Vec<f64>,
-    /// Whether viscosity, compression and torn pores are those of the flow.
+    /// Whether viscosity, compression and torn pores are consistent with the flow.
     pub(super) settled: bool,
-    /// The air that is closed off, and whether it has the pressures of its volumes.
+    /// Pockets of air, and whether they obey the gas law.
     pub(super) air: Option<(Air, bool)>,
     /// Whether the step ends the travel of the clamp.
     pub(super) ends_travel: bool,
-    /// Of a liquid that loses water: what it loses.
+    /// The water exchange, of a liquid that loses water.
     pub(super) exchange: Option<WaterExchange>,
 }
 
 impl Implicit {
-    /// Solves with the body that closes the gap driven so, in passes: until viscosity, compression, air and torn pores are
-    /// those of the flow.
+    /// Solves the flow with the moving body driven by `drive`. Iterates until viscosity, compression, air and torn pores are
+    /// consistent with the flow.
     pub(super) fn solve_driven(
         &mut self,
         middle: &MidStep,
@@ -111,8 +111,8 @@ impl Implicit {
         })
     }
 
-    /// The search for the viscosity of the flow of a step, which begins with that of the flow `guess`; `viscosity` is that of
-    /// no flow.
+    /// The fixed-point iteration for the viscosity field of a step, from that of the flow `start`. `viscosity` is the factor by cure
+    /// over the unit.
     fn viscosity_iteration(&self, viscosity: f64, start: &Flow) -> ViscosityIteration<'_> {
         let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length);
         let factor = viscosity / self.setup.units.viscosity;
@@ -126,7 +126,7 @@ impl Implicit {
         ViscosityIteration::new(liquid, factor, slip, used)
     }
 
-    /// A flow with the friction of the middle of the step.
+    /// A flow with the wall couplings and edges that it was solved with.
     pub(super) fn field<'a>(&'a self, flow: &'a Flow) -> FlowField<'a> {
         FlowField {
             mesh: &self.mesh,
@@ -137,8 +137,8 @@ impl Implicit {
         }
     }
 
-    /// Solves once with these viscosities, from the flow `guess`: the flow, the forces on bodies, and whether compression obeys
-    /// its law.
+    /// Solves once with given viscosities, from the flow `start`. Returns the flow, the forces on the bodies, and whether compression
+    /// obeys its law.
     fn solve_once(
         &self,
         (middle, drive): (&MidStep, Drive),
@@ -182,7 +182,7 @@ impl Implicit {
         };
         let mut excess_rate = compression.release_rates(&unknowns.pores, &start.pressure);
         if let Some(exchange) = &middle.water_loss {
-            // What full pores gain in the step, those with a pressure hold more.
+            // A full pore that loses water draws in as much liquid.
             let pores = unknowns.pores.iter().map(|&pore| pore as usize);
             for (excess_rate, pore) in excess_rate.iter_mut().zip(pores).filter(|of| full[of.1]) {
                 *excess_rate += exchange.gained[pore] / dt;

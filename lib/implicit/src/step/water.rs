@@ -1,4 +1,4 @@
-//! Loss of water: what walls take in a step, and what the liquid is left with.
+//! The water balance of a run: water in the liquid, in the walls, and gone with the outflow.
 
 use physics::{Array, Saved, WaterState};
 
@@ -8,40 +8,40 @@ use super::solve::Solved;
 use super::{Implicit, LN_VISCOSITY_STEP};
 use crate::geometry::DRIFT;
 
-/// Names of the arrays of a checkpoint that hold the water in the liquid, in the walls of each pore, and the account.
+/// Names of the checkpoint arrays of the water in the liquid and in the walls of each pore, and of the totals.
 const WATER: &str = "water";
 const SOAKED: &str = "water_in_walls";
 const ACCOUNT: &str = "water_account";
 
-/// The water of a liquid that loses it.
+/// The water balance of a liquid that loses water.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct WaterBalance {
-    /// Water in the liquid of each pore, and in its walls, cells.
+    /// Water in the liquid of each pore, and in the walls of each pore, cells.
     pub(super) water: Vec<f64>,
     pub(super) soaked: Vec<f64>,
-    /// Water in the liquid at the start, in the walls, and gone from the domain with its liquid, cells.
+    /// Totals, cells: water at the start, in the walls, and gone from the domain with the liquid.
     start: f64,
     in_walls: f64,
     pub(super) left: f64,
-    /// Change of ln(viscosity) per time where the liquid dries, 1/s.
+    /// Rate of change of ln(viscosity) by loss of water in the last step, 1/s.
     ln_viscosity_rate: f64,
-    /// Mean of 1/factor of the viscosity over the liquid.
+    /// Mean over the liquid of 1/(factor on the viscosity).
     pub(super) fluidity: f64,
 }
 
 impl WaterBalance {
-    /// For how long the loss of water leaves the viscosity as it is, s.
+    /// Step length at which loss of water changes ln(viscosity) by the target, s.
     pub(super) fn steady_time(&self) -> f64 {
         LN_VISCOSITY_STEP / self.ln_viscosity_rate
     }
 
-    /// Water found nowhere, over that at the start.
+    /// Error of the balance: water that is unaccounted for, over that at the start.
     fn missing(&self) -> f64 {
         let held = self.water.iter().sum::<f64>();
         (self.start - held - self.in_walls - self.left) / self.start
     }
 
-    /// Takes what a step of `dt` (s) moves out of the liquid.
+    /// Applies the water exchange of a step of `dt` (s) to the balance and to the liquid `volumes`.
     pub(super) fn give_off(&mut self, exchange: &WaterExchange, dt: f64, volumes: &mut [f64]) {
         for (pore, (&gained, &taken)) in exchange.gained.iter().zip(&exchange.taken).enumerate() {
             self.water[pore] += gained;
@@ -55,16 +55,16 @@ impl WaterBalance {
 }
 
 impl Solved {
-    /// How long a step may be at most, s, where the liquid dries too fast in this one.
+    /// If the liquid dries too fast in this step: the length to repeat it with, s.
     pub(super) fn dries_too_fast(&self) -> Option<f64> {
         let change = self.exchange.as_ref()?.change;
-        // Half above what steps aim at, so few are taken again.
+        // A tolerance of one half on the target, so that few steps are repeated.
         (change > 1.5 * LN_VISCOSITY_STEP).then(|| self.dt * LN_VISCOSITY_STEP / change)
     }
 }
 
 impl Setup {
-    /// The water of liquid `volumes` at the start.
+    /// The water balance at the start, for liquid `volumes`.
     pub(super) fn wet(&self, volumes: &[f64]) -> Option<WaterBalance> {
         let start = self.liquid.water.as_ref()?.start();
         let water: Vec<f64> = volumes
@@ -84,7 +84,7 @@ impl Setup {
 }
 
 impl Implicit {
-    /// Where the water is.
+    /// The water balance for diagnostics.
     pub(super) fn water_state(&self) -> Option<WaterState> {
         let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
         let held = wet.water.iter().sum::<f64>();
@@ -98,14 +98,14 @@ impl Implicit {
         })
     }
 
-    /// Solids content of a pore by mass; none where no water is lost.
+    /// Solids content of a pore by mass; `None` where the liquid loses no water.
     pub(super) fn solids_of(&self, pore: usize) -> Option<f64> {
         let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
         let held = wet.water[pore];
         Some(water.solids(held / (self.state.volumes[pore] - held)))
     }
 
-    /// The arrays of a checkpoint.
+    /// The water's checkpoint arrays.
     pub(super) fn save_water(&self) -> Vec<(&'static str, Array)> {
         let Some(wet) = &self.state.wet else {
             return Vec::new();
@@ -124,10 +124,10 @@ impl Implicit {
         ]
     }
 
-    /// The water of a checkpoint whose pores hold liquid `volumes`.
+    /// The water balance of a checkpoint whose pores hold liquid `volumes`.
     ///
     /// # Errors
-    /// What no run of this scene saves.
+    /// Where the arrays do not belong to this scene or do not balance.
     pub(super) fn restored_water(
         &self,
         saved: &Saved,

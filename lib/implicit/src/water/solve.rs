@@ -1,47 +1,47 @@
-//! The balance of water in all pores: X of each, not below what walls leave.
+//! Water balance of all pores: solves for the water ratio X of each, bounded from below by the limit of the walls' uptake.
 
 use crate::system::PASSES;
 
-/// Relative residual of the solution, so far below what a step moves that a run loses no water by it; a smaller one is rounding.
+/// Relative residual of the solution, small enough that a run conserves water; a smaller one is below rounding.
 const TOLERANCE: f64 = 1e-10;
-/// Part of the limit by which X may fall short of it: above what the solution is off by.
+/// Relative tolerance on the lower limit of X, above the error of the solution.
 const LIMIT_TOLERANCE: f64 = 10.0 * TOLERANCE;
 
-/// A pore with liquid.
+/// A pore with liquid, as a node of the water balance.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) pore: u32,
     /// Volume of the solids, cells.
     pub(crate) solids: f64,
-    /// Water over solids.
+    /// X_0, water over solids by volume at the start of the step.
     pub(crate) ratio: f64,
-    /// What its walls ask for, cells.
+    /// Water that its walls take if X stays above the limit, q, cells.
     pub(crate) demand: f64,
-    /// Nodes beside it, with what a difference of X passes on.
+    /// Neighbouring nodes and the diffusive conductance K to each.
     pub(crate) neighbours: Vec<(u32, f64)>,
 }
 
 impl Node {
-    /// Water that comes from the nodes beside node `own`.
+    /// Diffusive inflow into this node, number `own`.
     pub(crate) fn inflow(&self, ratio: &[f64], own: usize) -> f64 {
         let each = self.neighbours.iter();
         each.map(|&(n, k)| k * (ratio[n as usize] - ratio[own]))
             .sum()
     }
 
-    /// What a change of its X by one takes of water, with its neighbours' as they are.
+    /// Diagonal of the matrix.
     fn diagonal(&self) -> f64 {
         self.solids + self.neighbours.iter().map(|(_, k)| k).sum::<f64>()
     }
 }
 
-/// X of each node, and whether it is held at the least that walls leave; `None` where no balance was found.
+/// X of each node, at least `min_ratio`, and whether it is at that limit; `None` where the active set did not settle.
 pub(crate) fn solve(nodes: &[Node], min_ratio: f64) -> Option<(Vec<f64>, Vec<bool>)> {
     let mut ratio: Vec<f64> = nodes.iter().map(|node| node.ratio).collect();
     let mut at_limit: Vec<bool> = (nodes.iter())
         .map(|node| node.demand > 0.0 && node.ratio <= min_ratio * (1.0 + LIMIT_TOLERANCE))
         .collect();
-    // Pores change sides between those that still give all that is demand for and those at the limit.
+    // Active set: nodes switch between meeting the whole demand and resting at the limit.
     for _ in 0..PASSES {
         for (x, at_limit) in ratio.iter_mut().zip(&at_limit) {
             *x = if *at_limit { min_ratio } else { *x };
@@ -69,8 +69,8 @@ pub(crate) fn solve(nodes: &[Node], min_ratio: f64) -> Option<(Vec<f64>, Vec<boo
     None
 }
 
-/// Solves V_s (X - X_0) = sum K (X_n - X) - q for the nodes that are not held by conjugate gradients with the diagonal;
-/// whether that came to its tolerance.
+/// Solves V_s (X - X_0) = sum K (X_n - X) - q for the nodes that are not at the limit, by conjugate gradients with a diagonal
+/// preconditioner. Returns whether it converged.
 fn conjugate_gradients(nodes: &[Node], at_limit: &[bool], ratio: &mut [f64]) -> bool {
     let defect = |ratio: &[f64], n: usize| {
         let node = &nodes[n];
@@ -95,7 +95,7 @@ fn conjugate_gradients(nodes: &[Node], at_limit: &[bool], ratio: &mut [f64]) -> 
     let mut correction = scaled(&residual);
     let mut direction = correction.clone();
     let mut size = dot(&residual, &correction);
-    // But for rounding, as many steps as there are unknowns are enough.
+    // Exact after as many steps as there are unknowns, but for rounding.
     for _ in 0..=count {
         if dot(&residual, &residual) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
             return true;
