@@ -205,9 +205,7 @@ fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
         let mut found: Vec<bool> = (0..mesh.pores.len())
             .map(|pore| sides.contains(&layer(pore)))
             .collect();
-        let mut next: Vec<usize> = (0..found.len())
-            .filter(|&pore| found[pore])
-            .collect();
+        let mut next: Vec<usize> = (0..found.len()).filter(|&pore| found[pore]).collect();
         while let Some(pore) = next.pop() {
             for other in mesh.neighbours(pore).map(|neighbour| neighbour.pore) {
                 let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);

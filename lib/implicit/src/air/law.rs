@@ -76,7 +76,7 @@ impl Gas {
     }
 
     /// The part of `mass` that leaks out in a step of `dt` (s), at whose end the pocket has this volume and this pressure (relative
-/// to ambient).
+    /// to ambient).
     pub(crate) fn leaked(&self, mass: f64, volume: f64, pressure: f64, dt: f64) -> f64 {
         (self.leak_factor(dt) * pressure * volume).min(mass)
     }

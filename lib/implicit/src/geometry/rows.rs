@@ -67,7 +67,7 @@ impl Rows {
     }
 
     /// Velocity of the low side of a row relative to the part below, over that of the part above: 0 below, 1 above, linear across
-/// the gap.
+    /// the gap.
     pub(crate) fn closing_share(&self, row: usize) -> f64 {
         match self.kind(row) {
             RowKind::Below => 0.0,

@@ -146,7 +146,7 @@ impl Implicit {
     }
 
     /// Solves the flow with a given pressure on the clamp. If the clamp cannot move at the speed found, solves at the nearest speed
-/// that it can.
+    /// that it can.
     fn solve_at_limit(
         &mut self,
         middle: &MidStep,

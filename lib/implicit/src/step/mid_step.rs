@@ -135,7 +135,7 @@ impl Implicit {
     }
 
     /// Volume fractions in the middle of a step of `dt` (s), by `flow` or that of the last step. `full` says which pores are full at
-/// the start.
+    /// the start.
     fn mid_fractions(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
         let begun = Instant::now();
         let (state, mesh) = (&self.state, &self.mesh);

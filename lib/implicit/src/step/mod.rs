@@ -201,7 +201,7 @@ impl Implicit {
             dt = dt.min(cfl * units.cell_m / speed);
         }
         // The first step is bounded by the capillary speed, tension over viscosity. Later ones may grow by a factor only, since
-// contact-line friction is evaluated at the velocity of the step before.
+        // contact-line friction is evaluated at the velocity of the step before.
         if let Some(wetting) = liquid.wetting {
             dt = dt.min(match state.steps {
                 0 => units.cell_m * units.viscosity / wetting.tension,

@@ -111,8 +111,8 @@ impl Implicit {
         })
     }
 
-    /// The fixed-point iteration for the viscosity field of a step, from that of the flow `start`. `viscosity` is the factor by cure
-    /// over the unit.
+    /// The fixed-point iteration for the viscosity field of a step, from that of the flow `start`. `viscosity` is that of a Newtonian
+    /// liquid over the unit, which is its factor by cure.
     fn viscosity_iteration(&self, viscosity: f64, start: &Flow) -> ViscosityIteration<'_> {
         let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length);
         let factor = viscosity / self.setup.units.viscosity;

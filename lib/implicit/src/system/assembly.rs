@@ -1,4 +1,5 @@
-//! The equations of a step: momentum of faces, volume of pores, force on the body that closes the gap.
+//! Assembly of the equations of a step: momentum of faces, volume balance of pores, force on the moving body (docs/methods.md
+//! section 3.4).
 
 use rayon::prelude::*;
 use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
@@ -12,28 +13,28 @@ use super::viscosity::Viscosities;
 use crate::air::Pocket;
 use crate::geometry::{Lattice, Mesh, RowKind};
 
-/// Friction over viscosity of liquid that touches nothing, so that it has a velocity: with a thousand times as much forces
-/// differ by less than 0.1 %.
+/// Friction of every face, over viscosity, which keeps the velocity of detached liquid determined. A thousand times as much
+/// changes forces by less than 0.1 %.
 const FREE_FRICTION: f64 = 1e-7;
 
-/// What multiplies the terms of a step.
+/// Coefficients of the equations of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Scales {
     /// Length of the step, s.
     pub(crate) dt: f64,
-    /// Speed of flow that counts as none, cells/s.
+    /// Flow speed that counts as rest, cells/s.
     pub(crate) slow: f64,
     /// rho h^2/(eta dt).
     pub(crate) inertia: f64,
     /// rho h g/eta along each axis.
     pub(crate) gravity: [f64; 3],
-    /// eta/K, the compression of a unit of pressure.
+    /// eta/K, the relative change of volume by a unit of pressure.
     pub(crate) compressibility: f64,
     /// Influence length of the walls, cells; infinite without friction.
     pub(crate) influence_length: f64,
 }
 
-/// What the equations are made of.
+/// The inputs of the equations.
 pub(crate) struct Problem<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) mesh: &'a Mesh,
@@ -42,31 +43,31 @@ pub(crate) struct Problem<'a> {
     pub(crate) unknowns: &'a Unknowns,
     /// Volume fraction of each pore, at most 1.
     pub(crate) fractions: &'a [f64],
-    /// Liquid in the low and the high half of each face, over the volume of that half.
+    /// Liquid fraction of the low and the high half of each face.
     pub(crate) halves: &'a [[f64; 2]],
-    /// Liquid that moves with each face.
+    /// Liquid volume that moves with each face.
     pub(crate) masses: &'a [f64],
-    /// Liquid of the halves of each face, times their viscosity where edges have none of their own.
+    /// Sum over the halves of each face of liquid fraction times viscosity; without the viscosity where edges have their own.
     pub(crate) stiffnesses: &'a [f64],
     pub(crate) viscosities: &'a Viscosities,
-    /// Velocity of each face before the step, against the grid, cells/s, and the closing speed then.
+    /// Velocity of each face before the step, relative to the grid, cells/s, and the closing speed then.
     pub(crate) before: &'a [f64],
     pub(crate) speed_before: f64,
     /// Height of the gap at the end of the step, cells.
     pub(crate) end_height: f64,
     pub(crate) fronts: &'a Fronts,
-    /// Pockets of air with a pressure.
+    /// Pockets of air with an unknown pressure.
     pub(crate) pockets: &'a [Pocket],
     pub(crate) scales: Scales,
 }
 
 impl Problem<'_> {
-    /// Viscosity times fraction of a pore.
+    /// Viscosity times liquid fraction of a pore.
     pub(super) fn stiffness(&self, pore: usize) -> f64 {
         self.fractions[pore] * self.viscosities.pores[pore]
     }
 
-    /// Liquid of the halves of two faces that meet at an edge, times its viscosity as the faces know it.
+    /// Mean over the four halves of two faces that meet at an edge of liquid fraction times viscosity.
     fn edge_stiffness(&self, faces: [usize; 2]) -> f64 {
         0.25 * (self.stiffnesses[faces[0]] + self.stiffnesses[faces[1]])
     }
@@ -76,19 +77,19 @@ impl Problem<'_> {
         self.mesh.faces[face].ends()
     }
 
-    /// Whether a face has a velocity.
+    /// Whether the velocity of a face is an unknown.
     fn moves(&self, face: usize) -> bool {
         self.unknowns.face(face).is_some()
     }
 
-    /// Friction of the walls at a face, in its low and its high half.
+    /// Weights of wall friction at a face: liquid fraction times viscosity at the walls, in its low and its high half.
     pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
         let parts = self.halves[face];
         let eta = self.viscosities.at_walls(face, self.ends(face));
         [parts[0] * eta[0], parts[1] * eta[1]]
     }
 
-    /// The velocity block.
+    /// The velocity block A.
     pub(crate) fn velocity_block(&self) -> Result<VelocityBlock, SolveError> {
         let faces = &self.unknowns.faces;
         VelocityBlock::assemble(faces.len(), |row, entries| {
@@ -96,6 +97,7 @@ impl Problem<'_> {
         })
     }
 
+    /// Row of the velocity block for a face: wall friction, contact lines, inertia, stretching and shear.
     fn momentum(&self, face: usize, row: usize, entries: &mut RowEntries) {
         let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
@@ -139,7 +141,7 @@ impl Problem<'_> {
             entries.add(next, -eta * shear);
             let across = edge.across.map(|face| face as usize);
             if let [Some(low), Some(high)] = across.map(number) {
-                // Where a surface crosses the edge, the faces across share less or more liquid.
+                // Where a surface crosses the edge, the lesser liquid of the two pairs of faces counts.
                 let weight = eta.min(thick * self.edge_stiffness(across)) * length;
                 entries.add(high, -weight);
                 entries.add(low, weight);
@@ -149,10 +151,12 @@ impl Problem<'_> {
         self.add_dynamic_angle(face, entries);
     }
 
-    /// Right-hand sides of the momenta, each of all faces with a velocity: known, per closing speed, and the part of what is known
-    /// that stands (weight, menisci, gas); known force on the body that closes the gap, by the inertia and the weight of the
-    /// liquid that it carries along; and what of those known and of those per closing speed only makes thick liquid go along
-    /// with what moves.
+    /// Right-hand sides of the momentum equations, six for each face with a velocity:
+    /// 0. known forces;
+    /// 1. forces per closing speed;
+    /// 2. static part of 0: weight, menisci, gas;
+    /// 3. known force on the moving body, by inertia and weight of the liquid in the moving rows;
+    /// 4. and 5. the parts of 0 and 1 that only make viscous liquid follow its walls ([`clinging_share`]).
     pub(crate) fn right_hand_sides(&self) -> [Vec<f64>; 6] {
         let sides: Vec<[f64; 6]> = (self.unknowns.faces.par_iter())
             .map(|&face| self.right_hand_side(face as usize))
@@ -160,7 +164,7 @@ impl Problem<'_> {
         std::array::from_fn(|i| sides.iter().map(|side| side[i]).collect())
     }
 
-    /// What pushes a face, as in [`Self::right_hand_sides`].
+    /// Right-hand sides of one face, in the order of [`Self::right_hand_sides`].
     fn right_hand_side(&self, face: usize) -> [f64; 6] {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
@@ -197,7 +201,7 @@ impl Problem<'_> {
         force
     }
 
-    /// Force per closing speed on the body that closes, by liquid that stays where it is in the grid.
+    /// Force per closing speed on the moving body, by liquid at rest relative to the grid.
     pub(crate) fn resistance(&self) -> f64 {
         let faces = self.unknowns.faces.iter();
         let pores = 0..self.mesh.pores.len();
@@ -207,6 +211,7 @@ impl Problem<'_> {
             + pores.map(|pore| self.squeeze_resistance(pore)).sum::<f64>()
     }
 
+    /// Force per closing speed by the walls and the inertia of one face at rest relative to the grid.
     fn face_resistance(&self, face: usize) -> f64 {
         let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
@@ -218,14 +223,14 @@ impl Problem<'_> {
         walls + self.scales.inertia * self.masses[face] * grid * grid
     }
 
-    /// Resistance of a pore of the gap to being squeezed with its faces at rest.
+    /// Force per closing speed by the stretching of a gap pore whose faces are at rest relative to the grid.
     fn squeeze_resistance(&self, pore: usize) -> f64 {
         let stiffness = self.stiffness(pore);
         if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row_of(pore)) != RowKind::Gap {
             return 0.0;
         }
         let mut sum = 0.0;
-        // From its high faces where it has no low ones.
+        // Terms of its low faces, or of its high ones if it has no low ones.
         let up = self.mesh.faces_at(pore, 1, false).len() == 0;
         let faces = self.mesh.faces_at(pore, 1, up);
         for face in faces.filter(|&face| self.moves(face)) {
@@ -238,8 +243,8 @@ impl Problem<'_> {
         stiffness * sum
     }
 
-    /// What the power of the velocities `u` of the faces misses of viscous dissipation: less inertia, more walls that move
-    /// along themselves.
+    /// Correction from the power u A u to viscous dissipation, for face velocities `u`: adds the power of sliding walls, subtracts
+    /// that of inertia.
     pub(crate) fn viscous_parts(&self, u: &[f64], speed: f64) -> f64 {
         let part = |(&face, u): (&u32, &f64)| {
             let face = face as usize;
@@ -261,7 +266,7 @@ impl Problem<'_> {
         self.unknowns.faces.iter().zip(u).map(part).sum()
     }
 
-    /// Outflow of each pore with a pressure by the velocities of its faces, and behind these of each pocket by its front.
+    /// The divergence block G: outflow of each pore with a pressure per face velocity, then that of each pocket through its front.
     pub(crate) fn outflow(&self) -> Result<Csr<f64>, SolveError> {
         let (pores, faces) = (&self.unknowns.pores, &self.unknowns.faces);
         let rows = pores.len() + self.pockets.len();
@@ -277,7 +282,7 @@ impl Problem<'_> {
         })
     }
 
-    /// Volume that a pore loses per closing speed.
+    /// Volume that a pore loses per closing speed, V_c/g in the gap.
     pub(crate) fn closing_loss(&self, pore: usize) -> f64 {
         let mesh = self.mesh;
         match mesh.rows().kind(mesh.row_of(pore)) {
@@ -287,7 +292,8 @@ impl Problem<'_> {
     }
 }
 
-/// Part of a force on liquid of this viscosity over its unit that only makes it go along: what is left is that of the unit.
+/// Share of a viscous force that only makes liquid follow the walls: all but the force on liquid of unit viscosity. `viscosity`
+/// is over the unit.
 fn clinging_share(viscosity: f64) -> f64 {
     1.0 - 1.0 / viscosity.max(1.0)
 }

@@ -1,30 +1,29 @@
-//! The hold of walls on one face beside them.
+//! Viscous coupling of one face to its walls.
 
-/// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half. FaceMap in single precision.
+/// Viscous coupling of a face to its walls, per viscosity, for its low and its high half. Stored in single precision.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WallCoupling<T = f64> {
-    /// Area of walls over the distance to them, of the halves in the low and the high pore.
+    /// Wall friction coefficient A_w/(d_w + l).
     pub(crate) friction: [T; 2],
-    /// The same times the velocity of the walls along the face: what moves by itself, cells/s, and what moves with the
-    /// closing speed, per unit of that.
+    /// Friction times tangential wall velocity: that of sliding walls, cells/s, and that per closing speed.
     pub(crate) sliding: [[T; 2]; 2],
-    /// The same times the square of the latter.
+    /// Friction times the square of the wall velocity per closing speed.
     pub(crate) resistance: [T; 2],
-    /// Area of walls, of both halves, and that times the open height beside them.
+    /// Wall area of both halves, and its product with the open height next to the walls.
     pub(crate) area: T,
     pub(crate) height: T,
-    /// Sum of 1/H^2 over the axes across the face.
+    /// Sum of 1/H^2 over the two tangential axes, H the channel width.
     pub(crate) inverse_width_squared: T,
-    /// Whether the height of the gap is part of it.
+    /// Whether the coupling depends on the height of the gap.
     pub(crate) depends_on_gap: bool,
-    /// Whether there are walls beside it.
+    /// Whether the face has walls.
     pub(super) walled: bool,
-    /// Code of the body that most recently was found beside it.
+    /// Code of a body whose wall acts on the face; the last one found if there are several.
     pub(crate) body: u8,
 }
 
 impl WallCoupling {
-    /// Adds friction in a half, with a wall that moves so: by itself, and per closing speed.
+    /// Adds the friction of a wall to a half. The wall slides at `own` (cells/s) and moves by `clamp` per closing speed.
     pub(super) fn add(&mut self, half: usize, friction: f64, [own, clamp]: [f64; 2]) {
         self.friction[half] += friction;
         self.sliding[half][0] += friction * own;
@@ -34,7 +33,7 @@ impl WallCoupling {
 }
 
 impl<T: Copy> WallCoupling<T> {
-    /// The same in another precision.
+    /// The coupling converted to another precision.
     pub(super) fn with<U>(self, of: impl Fn(T) -> U) -> WallCoupling<U> {
         WallCoupling {
             friction: self.friction.map(&of),

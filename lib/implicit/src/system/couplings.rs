@@ -1,4 +1,4 @@
-//! Friction of walls: what each face is held with by the walls beside it.
+//! Wall friction: the viscous coupling of every face to its walls (docs/methods.md section 3.5).
 
 use rayon::prelude::*;
 
@@ -7,27 +7,28 @@ use crate::liquid::FaceMap;
 
 use super::coupling::WallCoupling;
 
-/// Least effective distance over the open height of a column, so that friction stays finite.
+/// Lower bound on d_w over the open height, which keeps friction finite.
 const MIN_DISTANCE: f64 = 0.1;
-/// Least part of the narrowest width that counts where walls stand on both axes: that of a square duct two cells wide.
+/// Lower bound on the effective width H over the least of H_t, H_a and 2 h1, for walls on both axes: that of a square duct two
+/// cells wide.
 const MIN_DUCT: f64 = 0.85;
 
-/// The links of all faces of a mesh.
+/// The wall couplings of all faces of a mesh.
 #[derive(Clone, Default)]
 pub(crate) struct WallCouplings(Vec<WallCoupling<f32>>);
 
 impl WallCouplings {
-    /// Whether there are none yet.
+    /// Whether none have been computed yet.
     pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The link of a face.
+    /// The coupling of a face.
     pub(crate) fn of(&self, face: usize) -> WallCoupling {
         self.0[face].with(f64::from)
     }
 
-    /// Those of a mesh; of faces that are `kept` from another mesh, as `old` has them.
+    /// The couplings of a mesh; faces that are unchanged by `face_map` keep their `old` ones.
     pub(crate) fn new(channels: &Channels, face_map: &FaceMap, old: &Self) -> Self {
         let mesh = channels.mesh;
         let (inner, clear) = (mesh.inner_faces(), mesh.wall_free_cells());
@@ -43,7 +44,7 @@ impl WallCouplings {
             );
             match inner[face] {
                 false => WallCoupling::default(),
-                // It is measured before it is used.
+                // `measure` computes it before use.
                 true if moving && depends_on_gap => WallCoupling {
                     depends_on_gap,
                     walled: !clear,
@@ -60,7 +61,7 @@ impl WallCouplings {
         )
     }
 
-    /// Finds anew the links of faces with liquid whose channels the gap's height is part of.
+    /// Recomputes the couplings that depend on the gap's height, of faces with liquid.
     pub(crate) fn measure(&mut self, channels: &Channels, fractions: &[f64]) {
         self.0
             .par_iter_mut()
@@ -74,7 +75,7 @@ impl WallCouplings {
     }
 }
 
-/// What links are found from.
+/// The inputs of wall couplings.
 pub(crate) struct Channels<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) chords: &'a Chords,
@@ -83,16 +84,16 @@ pub(crate) struct Channels<'a> {
     pub(crate) influence_length: f64,
 }
 
-/// The walls beside one column of a face, in units of the edge of its cells across the column.
+/// A voxel column of a face along a tangential axis, with lengths over the edge of the cell along that axis.
 struct Column {
-    /// Open height.
+    /// Open height h1.
     height: f64,
-    /// Width of the channel along the column and across it.
+    /// Channel widths along the column, H_t, and across it, H_a.
     widths: [f64; 2],
 }
 
 impl Channels<'_> {
-    /// Whether the height of the gap is part of the link of a face.
+    /// Whether the coupling of a face depends on the height of the gap.
     fn depends_on_gap(&self, face: usize) -> bool {
         let mesh = self.mesh;
         let through = |pore: usize| {
@@ -105,7 +106,7 @@ impl Channels<'_> {
         mesh.touches_gap(face) || mesh.faces[face].ends().into_iter().any(through)
     }
 
-    /// The link of a face that is `clear` of walls or not, and `depends_on_gap` or not.
+    /// Computes the coupling of a face; `clear` says that it has no walls.
     fn coupling(&self, face: usize, clear: bool, depends_on_gap: bool) -> WallCoupling<f32> {
         let mut coupling = WallCoupling::<f64> {
             depends_on_gap,
@@ -128,7 +129,7 @@ impl Channels<'_> {
         coupling.with(|value| value as f32)
     }
 
-    /// Adds the walls at both ends along `t` of column `r` of a face between cells at two places.
+    /// Adds the walls at both ends of voxel column `r` along `t` of a face. `places` are the indices of its two cells.
     fn column(
         &self,
         (face, clear): (usize, bool),
@@ -178,10 +179,10 @@ impl Channels<'_> {
             }
             let column = Column {
                 height,
-                // Two voxels tell of walls on the other axis by themselves.
+                // With two voxels a cell, columns account for walls on the other axis by themselves.
                 widths: [along, if k == 1 { width(across) } else { along }],
             };
-            // Beyond the corner of a wall that the flow passes, the wall ahead of liquid at rest beside it.
+            // Past the corner of a wall, liquid shears against the face that the wall closes.
             for (code, (_, up)) in both[1 - half].into_iter().zip(corner) {
                 let open = ends[usize::from(up)] == OPEN;
                 if let Some(next) = mesh
@@ -205,7 +206,7 @@ impl Channels<'_> {
                 } else {
                     mesh.lowest_row(f.low as usize)
                 };
-                // A re-entrant edge at the voxel would be a step within the cell.
+                // Beside a step within the cell the friction already allows for its re-entrant edge.
                 let factor = match step_proximity < 1.0 {
                     true => 1.0,
                     false => (lowest * mesh.ln_reentrant_factor(at, [t, across], up)).exp(),
@@ -220,7 +221,7 @@ impl Channels<'_> {
         }
     }
 
-    /// Width of the channel along an axis at a voxel, cells.
+    /// Channel width along an axis at a voxel, cells.
     fn width(&self, place: Option<VoxelPlace>, axis: usize) -> f64 {
         let k = self.mesh.k as f64;
         let gap = self.mesh.rows().height * k;
@@ -228,8 +229,8 @@ impl Channels<'_> {
         (place.map_or(f64::INFINITY, length) / k).max(0.25)
     }
 
-    /// Distance over which the velocity of a column falls to that of its walls, in cells of it: that which makes the flux
-    /// of plane Poiseuille flow exact at every height `h1` of the column in a channel of width `H`.
+    /// Effective distance d_w of a column from its walls, which makes the flux of plane Poiseuille flow exact for every open height h1
+    /// of the column in a channel of width H.
     ///
     /// Derivation. The velocity is the mean over a column of height h1 at the wall. Between plates the profile is
     /// u = g (x - x^2/H) with the slope g at the wall; its mean there is g (h1/2 - h1^2/(3 H)). Differences of means over equal
@@ -238,8 +239,8 @@ impl Channels<'_> {
     ///
     /// d = h1/2 - h1^2/(3 H) + (1 - 2 h1/H) (h1^2 - 1)/(3 H).
     ///
-    /// A column between two walls has the mean g H/6, so that d = H/6. Beside steps, where flow is not that between plates,
-    /// the defect counts in part or not, by `near`.
+    /// A column between two walls has the mean g H/6, so that d = H/6. Beside steps flow is not that between plates, and the defect is
+    /// reduced by the factor 1 - `step_proximity`.
     fn distance(&self, column: &Column, between: bool, step_proximity: f64) -> f64 {
         let h1 = column.height;
         let [along, across] = column.widths;
@@ -259,7 +260,7 @@ impl Channels<'_> {
         distance.max(MIN_DISTANCE * h1)
     }
 
-    /// Velocity of a wall along an axis against the row of a face: its own, cells/s, and per closing speed.
+    /// Velocity of a wall along an axis relative to the grid at a face: by sliding, cells/s, and per closing speed.
     fn wall_velocity(&self, code: u8, face: usize, axis: usize) -> [f64; 2] {
         let body = usize::from(code - 1);
         let own = self.lattice.slide[body][axis];

@@ -1,30 +1,30 @@
-//! Shear between a face and the faces beside it of the same axis, across the edges that they share.
+//! Shear between neighbouring faces of the same axis, at the cell edges that they share (docs/methods.md section 3.4).
 
 use rayon::prelude::*;
 
 use crate::geometry::{Lattice, Mesh, others};
 use crate::liquid::FaceMap;
 
-/// An edge that a face shares with the next face across.
+/// An edge that a face shares with its next face along a transverse axis `t`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     /// The next face.
     pub(crate) next: u32,
-    /// The faces across, between the low pores of both and between the high pores of both.
+    /// The faces normal to `t` at the edge: between the low pores of both faces, and between their high pores.
     pub(crate) across: [u32; 2],
-    /// Factor by re-entrant edges, in cells as high as wide.
+    /// Correction for re-entrant edges, in cubic cells.
     factor: f32,
-    /// Voxels along the edge that they share, negative where the next face lies on the low side.
+    /// Length of the edge, voxels; negative if the next face lies on the low side.
     shared: i8,
-    /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
+    /// Open height along `t` of the face and of the next one at the edge, voxels.
     open: [u8; 2],
-    /// The same of the faces across, along the axis of the face.
+    /// Open height of the two faces `across` along the axis of the face, voxels.
     across_open: [u8; 2],
     t: u8,
 }
 
 impl Edge {
-    /// Rate of shear across it by the velocities `u` around it.
+    /// Shear rate at the edge by the face velocities `u`.
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
         let [low, high] = self.across.map(|face| u[face as usize]);
@@ -33,7 +33,7 @@ impl Edge {
         (self.slope(mesh, face, u) + across).abs()
     }
 
-    /// Slope across it of the velocity of the face by the velocities `u`.
+    /// Gradient along `t` of the velocity of the face at the edge, by the face velocities `u`.
     pub(super) fn slope(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let lows = [face, self.next as usize].map(|face| mesh.faces[face].low);
         let along =
@@ -41,22 +41,22 @@ impl Edge {
         along * f64::from(self.shared.signum())
     }
 
-    /// Whether the next face lies beside it along `t` on the high (`up`) or low side.
+    /// Whether the edge is on the high (`up`) or low side of the face along `t`.
     pub(super) fn is_at(&self, t: usize, up: bool) -> bool {
         usize::from(self.t) == t && (self.shared > 0) == up
     }
 
-    /// Columns of voxels that the faces share it by.
+    /// Length of the edge, voxels.
     pub(super) fn columns(&self) -> f64 {
         f64::from(self.shared.unsigned_abs())
     }
 
-    /// The axis that it lies along.
+    /// The axis along which the edge runs.
     pub(crate) fn axis(&self, mesh: &Mesh, face: usize) -> usize {
         3 - usize::from(mesh.faces[face].axis) - usize::from(self.t)
     }
 
-    /// Area over distance between a face and the next one, cells, and the length of the edge, negative where the next face
+    /// Sheared area over the distance between the two faces, cells, and the length of the edge, cells, negative if the next face
     /// lies on the low side.
     pub(crate) fn geometry(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
         let f = mesh.faces[face];
@@ -83,14 +83,14 @@ impl Edge {
     }
 }
 
-/// Distance along an axis between the middles of so many open voxels in two pores that meet, cells.
+/// Distance along an axis between the middles of two adjacent open heights (`open`, in voxels) in two pores, cells.
 fn distance_between(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
     let [low, high] =
         [0, 1].map(|i| f64::from(open[i]) * mesh.edge(pores[i] as usize, usize::from(axis)));
     0.5 * (low + high) / mesh.k as f64
 }
 
-/// The edges of all faces of a mesh.
+/// The edges of all faces of a mesh, grouped by face.
 #[derive(Default)]
 pub(crate) struct Edges {
     start: Vec<u32>,
@@ -98,18 +98,18 @@ pub(crate) struct Edges {
 }
 
 impl Edges {
-    /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
+    /// The edges of `mesh`; faces that are unchanged by `face_map` keep their `old` ones.
     pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, face_map: &FaceMap, old: &Self) -> Self {
-        let mut now = vec![None; old.start.len()];
+        let mut new_face = vec![None; old.start.len()];
         for (face, old_face) in face_map.0.iter().enumerate() {
             if let Some((old_face, _)) = old_face {
-                now[*old_face as usize] = Some(face as u32);
+                new_face[*old_face as usize] = Some(face as u32);
             }
         }
         let renumbered = |edge: &Edge| {
-            let [low, high] = edge.across.map(|face| now[face as usize]);
+            let [low, high] = edge.across.map(|face| new_face[face as usize]);
             Some(Edge {
-                next: now[edge.next as usize]?,
+                next: new_face[edge.next as usize]?,
                 across: [low?, high?],
                 ..*edge
             })
@@ -159,8 +159,8 @@ impl Edges {
         self.start[face] as usize
     }
 
-    /// Square of the rate of shear at each edge by the velocities `u`: its own, and what else of the rates there is in the
-    /// pores around it, by the parts of their squares: stretching, and shear around each axis.
+    /// Square of the shear rate at each edge by the face velocities `u`: that of its own shear, and the mean of all other parts in
+    /// the four pores around it. `parts` are the squares in each pore: stretching, and shear about x, y, z.
     pub(crate) fn rates(&self, mesh: &Mesh, u: &[f64], parts: &[[f64; 4]]) -> Vec<f64> {
         let rates = |face: usize| {
             self.of(face).iter().map(move |edge| {
@@ -186,7 +186,7 @@ impl Edges {
     }
 }
 
-/// Adds the edges of a face, in which voxels of the same faces are joined where re-entrant edges are alike.
+/// Adds the edges of a face. Voxels of an edge between the same faces are merged if they have the same re-entrant correction.
 fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize, clear: bool) {
     let axis = usize::from(mesh.faces[face].axis);
     let key = |edge: &Edge| {
@@ -219,7 +219,7 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
     }
 }
 
-/// The edge at one side of a face along `t` where all cells around are open: one pore each, one face between two.
+/// The edge at one side of a face along `t` if all cells around are wholly open: one pore each, one face between two.
 fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
     let f = mesh.faces[face];
     let cells = f.ends().map(|pore| mesh.cell(pore));
@@ -240,7 +240,7 @@ fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
     })
 }
 
-/// The edge at one side of column `r` of a face along `t`.
+/// The edge at one side along `t` of voxel column `r` of a face.
 fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];

@@ -1,4 +1,4 @@
-//! The equations of a step as the linear solver takes them, and the flow of its solution.
+//! The saddle-point system of a step for the linear solver, and the flow from its solution.
 
 use rayon::prelude::*;
 use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
@@ -6,31 +6,32 @@ use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
 use super::assembly::Problem;
 use super::solution::{Drive, Flow};
 
-/// The equations of a step, for the linear solver.
+/// The saddle-point system of a step.
 pub(super) struct Equations {
     a: VelocityBlock,
     g: Csr<f64>,
-    /// Compressibility of each pore and pocket, and twice its viscosity.
+    /// Diagonal of C, the compressibility of each pore and pocket, and twice the viscosity of each.
     c: Vec<f64>,
     two_eta: Vec<f64>,
-    /// `D_B` of each face.
+    /// `D_B` of each face (docs/methods.md section 3.6).
     friction: Vec<f64>,
-    /// Momenta at the closing speed, per closing speed, of them those that stand, and those of thick liquid that goes along.
+    /// Momentum right-hand sides: all of them, those per closing speed, the static ones, and those that only make liquid follow its
+    /// walls.
     known: Vec<f64>,
     pub(super) closing: Vec<f64>,
     standing: Vec<f64>,
     clinging: Vec<f64>,
-    /// Volumes that pores lose per closing speed, and at the speed that is given.
+    /// Volumes that pores and pockets lose per closing speed, and those at a prescribed speed (zero if the speed is unknown).
     pub(super) source: Vec<f64>,
     volume_source: Vec<f64>,
     excess_rate: Vec<f64>,
-    /// Known force on the body that closes the gap.
+    /// Known force on the moving body.
     pub(super) known_body_force: f64,
 }
 
 impl Equations {
-    /// Those of a problem at a closing `speed`; `carried` is the volume, over the time step, that each pore with a pressure holds
-    /// more than its volume at no pressure.
+    /// The system of a problem with the moving body driven by `drive`. `excess_rate` is the excess of the liquid in each pore with a
+    /// pressure over the pore's volume, per time.
     pub(super) fn new(
         problem: &Problem,
         excess_rate: &[f64],
@@ -90,8 +91,8 @@ impl Equations {
         Ok(equations)
     }
 
-    /// Adds pockets of air. The unknown of one is its pressure less that of its tangent, by which fronts are pushed: what softens
-    /// a pocket much would outweigh all else.
+    /// Adds pockets of air. The unknown of a pocket is its pressure less that of its tangent, which the fronts already apply: with
+    /// the full pressure as the unknown, the terms of a soft pocket would outweigh all others.
     fn add_pockets(&mut self, problem: &Problem) {
         let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
         let dt = problem.scales.dt;
@@ -106,6 +107,7 @@ impl Equations {
         }
     }
 
+    /// The system as the linear solver takes it.
     pub(super) fn system(&self, problem: &Problem) -> SaddleSystem<'_> {
         SaddleSystem {
             a: &self.a,
@@ -123,7 +125,7 @@ impl Equations {
         }
     }
 
-    /// The flow of velocities and pressures at a closing speed.
+    /// The flow with the solution u, p at a closing speed.
     pub(super) fn flow(&self, problem: &Problem, [u, p]: [&[f64]; 2], speed: f64) -> Flow {
         let unknowns = problem.unknowns;
         let mut flow = Flow {
@@ -155,7 +157,7 @@ impl Equations {
     }
 }
 
-/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
+/// `D_B` of the preconditioner: inertia, and Darcy friction of the channel around a face (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
     let coupling = problem.couplings.of(face);
     let slip = problem.scales.influence_length;
@@ -169,6 +171,6 @@ pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
     let [low, high] = problem
         .ends(face)
         .map(|pore| problem.viscosities.pores[pore]);
-    // A diagonal without zeros.
+    // Keeps the diagonal positive.
     (problem.masses[face] * (problem.scales.inertia + low.max(high) * narrow)).max(1e-6)
 }

@@ -1,5 +1,5 @@
-//! Boundary conditions where liquid ends: the pressure beyond its surface, lower or higher by that of a meniscus, and the friction
-//! of contact lines.
+//! Boundary conditions at the liquid's surface: ambient or pocket pressure, capillary pressure of menisci, friction of contact
+//! lines (docs/methods.md section 3.12).
 
 use rayon::prelude::*;
 use saddle_point::RowEntries;
@@ -8,28 +8,28 @@ use super::assembly::Problem;
 use super::unknowns::Unknowns;
 use crate::geometry::{Chords, Lattice, Mesh, Neighbour, perimeter_over_area};
 
-/// Neighbour in a step, cells, that counts as rest: far less than a step moves, far more than solutions are off by. A meniscus that goes
-/// it is held by half of all that holds it (docs/methods.md section 3.12).
+/// Displacement in a step that counts as rest, cells: far less than a step moves, far more than the error of a solution. It makes
+/// v_0 = REST_DISTANCE/dt of docs/methods.md section 3.12: a meniscus that moves by it feels half of the contact-line friction.
 pub(crate) const REST_DISTANCE: f64 = 0.01;
 
-/// How liquid meets the walls, in the units of a step.
+/// Wetting of the walls, in the units of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wetting {
     /// Surface tension.
     pub(crate) tension: f64,
     /// Cosine of the contact angle at rest.
     pub(crate) cosine: f64,
-    /// What it loses per capillary number of a front that advances, times the viscosity in that number.
+    /// k eta: loss of the cosine per capillary number, times the viscosity in that number.
     pub(crate) dynamic_coefficient: f64,
     /// Length of the step, s.
     pub(crate) dt: f64,
-    /// Length of the step before over that, at most 1.
+    /// Length of the last step over that of this one, at most 1.
     pub(crate) step_ratio: f64,
 }
 
 impl Wetting {
-    /// What the jump of a passage of unit perimeter_over_area loses over the speed of a meniscus that advanced at `speed`, no further than
-    /// to an angle of 180 or 0 degrees.
+    /// Loss of capillary pressure per speed of the meniscus, for a throat of unit perimeter over area. Bounded so that the
+    /// contact angle of a meniscus at `speed`, that of the last step, stays within 0 and 180 degrees.
     fn dynamic_loss(&self, speed: f64) -> f64 {
         let left = match speed > 0.0 {
             true => 1.0 + self.cosine,
@@ -39,30 +39,30 @@ impl Wetting {
         self.dynamic_coefficient.min(most)
     }
 
-    /// Dry friction over the speed of a front that advanced at `speed` where the passage holds it by the jump of `uneven`. It
-    /// knows ways, not times: in a longer step the way of the last one counts, or fronts that come to rest would go on as far
-    /// as steps grow.
+    /// Dry friction of a contact line per area and speed: F/(|u'| + v_0) with u' the `speed` of the last step. Friction depends on the
+    /// displacement, not the time: in a longer step u' is scaled to the displacement of the last one, or fronts that come to rest
+    /// would creep on as steps grow.
     fn contact_friction(&self, hysteresis: f64, speed: f64) -> f64 {
         let held = self.tension * self.cosine.abs() * hysteresis;
         held / (self.step_ratio * speed.abs() + REST_DISTANCE / self.dt)
     }
 }
 
-/// What liquid meets where it ends.
+/// The boundary conditions at the surface of the liquid.
 #[derive(Default)]
 pub(crate) struct Fronts {
-    /// Pressure on liquid that ends in each pore without a pressure of its own, over the unit of viscosity; empty where
-    /// nothing pushes.
+    /// p_front in each pore without an unknown pressure, over the unit of viscosity; empty if zero everywhere.
     pub(crate) pressure: Vec<f64>,
-    /// Force against the velocity of each face over that; empty where contact lines resist nothing.
+    /// Friction of contact lines at each face, force per velocity; empty without menisci.
     pub(crate) contact_friction: Vec<f64>,
-    /// Loss of the jump in each pore over the flow that comes into it; empty where angles do not depend on the speed.
+    /// Loss of capillary pressure in each pore per inflow; empty if the contact angle does not depend on the speed.
     pub(crate) dynamic_loss: Vec<f64>,
 }
 
 impl Fronts {
-    /// Those of pores at the pressures `around` them. Where a full pore meets one that is neither full nor `torn`, the meniscus is that of the passage
-    /// there: a jump of tension times cosine times perimeter over area. `velocity` is that of the faces before the step.
+    /// The boundary conditions for pores with the pressures `around` of their gas or torn liquid. A meniscus stands in each pore that
+    /// is neither full nor `torn` and borders on a full one; its capillary pressure is tension times cosine times perimeter over
+    /// area of the throat. `velocity` is that of the faces before the step.
     pub(crate) fn new(
         (lattice, chords, mesh): (&Lattice, &Chords, &Mesh),
         (unknowns, torn): (&Unknowns, &[bool]),
@@ -127,20 +127,20 @@ impl Fronts {
     }
 }
 
-/// The dry side of the front.
+/// The menisci and the throats around them.
 struct FrontView<'a> {
     mesh: &'a Mesh,
-    /// Whether each pore is of it.
+    /// Whether each pore holds a meniscus: it is not full and borders on a full pore.
     dry: &'a [bool],
-    /// Whether a meniscus that has filled a pore of it may go on to a pore.
+    /// Whether a pore can still be filled, so that a meniscus may move on into it.
     empty: &'a (dyn Fn(usize) -> bool + Sync),
-    /// Perimeter over area of passages on both sides.
+    /// Perimeter over area of the throat at each pore with a meniscus and at its neighbours.
     perimeter_over_area: &'a [f64],
     wetting: Wetting,
 }
 
 impl FrontView<'_> {
-    /// What holds menisci at a face over its velocity.
+    /// Friction of the contact line at a face, force per velocity.
     fn contact_friction(&self, face: usize, velocity: f64) -> f64 {
         let f = &self.mesh.faces[face];
         let [low, high] = f.ends();
@@ -154,8 +154,8 @@ impl FrontView<'_> {
         self.mesh.area(face) * self.wetting.contact_friction(hysteresis, speed)
     }
 
-    /// Loss of the jump in a pore over what comes into it, by the velocities before the step. Its section is its volume over an
-    /// edge.
+    /// Loss of capillary pressure in a pore per inflow, by the velocities before the step. The cross-section of the pore is its
+    /// volume over the edge of a cell.
     fn dynamic_loss(&self, unknowns: &Unknowns, pore: usize, velocity: &[f64]) -> f64 {
         let (perimeter_over_area, section) =
             (self.perimeter_over_area[pore], self.mesh.volume(pore));
@@ -166,8 +166,8 @@ impl FrontView<'_> {
         perimeter_over_area * self.wetting.dynamic_loss(into.sum::<f64>() / section) / section
     }
 
-    /// Half of what the perimeter_over_area varies by where a meniscus that leaves `wet` for `dry` along an axis may rest: where
-    /// its pull falls ahead, and along it.
+    /// Delta/2 of docs/methods.md section 3.12: half of the fall of perimeter over area for a meniscus that moves from `wet` into
+    /// `dry` along an axis, to the pores ahead and to empty ones along the front.
     fn hysteresis(&self, axis: usize, up: bool, wet: usize, dry: usize) -> f64 {
         let here = self.perimeter_over_area[dry];
         let (mut behind, mut ahead) = (
@@ -193,7 +193,7 @@ impl FrontView<'_> {
                 widen(&mut ahead);
             }
         }
-        // A liquid that does not wet is pressed back by narrower places.
+        // A non-wetting liquid is repelled by narrower throats.
         let fall = match self.wetting.cosine > 0.0 {
             true => behind[1] - ahead[0],
             false => ahead[1] - behind[0],
@@ -202,8 +202,7 @@ impl FrontView<'_> {
     }
 }
 
-/// Faces by which a pore without a pressure is filled by those that have one, and their areas, negative where a positive
-/// velocity leaves it.
+/// The faces of a pore towards full pores, with their areas, negative where a positive velocity leaves the pore.
 fn wet_faces<'a>(
     mesh: &'a Mesh,
     unknowns: &'a Unknowns,
@@ -220,8 +219,8 @@ fn wet_faces<'a>(
 }
 
 impl Problem<'_> {
-    /// Adds what a dynamic angle resists the velocity of a face with: what a meniscus moves by is all that comes into its pore,
-    /// or steps of a front between pores would be ways around it.
+    /// Adds the loss of capillary pressure by the dynamic angle to the equation of a face. The speed of a meniscus is the inflow into
+    /// its pore through all faces: friction at each face alone would let a stepped front, which has more faces, pass faster.
     pub(super) fn add_dynamic_angle(&self, face: usize, entries: &mut RowEntries) {
         let ends = self.ends(face);
         for (dry, wet, sign) in [(ends[0], ends[1], -1.0), (ends[1], ends[0], 1.0)] {
@@ -243,7 +242,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Force on a face by what is beyond the surface of liquid that ends there.
+    /// Force on a face by p_front beyond the surface.
     pub(super) fn front_force(&self, face: usize) -> f64 {
         let ends = self.ends(face);
         let pressure = |pore: usize| self.fronts.pressure.get(pore).copied().unwrap_or_default();
@@ -255,7 +254,7 @@ impl Problem<'_> {
         pressure * self.mesh.area(face)
     }
 
-    /// Adds the outflow of a pore to those beside it that count.
+    /// Adds the outflow of a pore through its faces towards neighbours for which `counts` holds.
     pub(super) fn add_outflow(
         &self,
         pore: usize,

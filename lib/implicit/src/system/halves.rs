@@ -1,4 +1,4 @@
-//! Liquid in the halves of faces: what moves with each face, and what resists.
+//! Liquid in the halves of faces: the mass and the viscous stiffness of each face (docs/methods.md section 3.3).
 
 use rayon::prelude::*;
 
@@ -6,8 +6,8 @@ use super::unknowns::FULL;
 use super::viscosity::Viscosities;
 use crate::geometry::{Face, Mesh};
 
-/// Liquid in the halves of each face, over their volumes. A pore that a full one beside it fills has all of its liquid in
-/// that half: what the pressure of the full pore moves reaches to the surface.
+/// Liquid fraction of the two halves of each face. A partly filled pore with a full one on one side only has all its liquid in
+/// the half towards it: the pressure of the full pore drives the liquid up to the surface.
 pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
     let full = |pore: usize| fractions[pore] >= FULL;
     (mesh.faces.par_iter())
@@ -32,7 +32,7 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Liquid that moves with each face: its share of the half pores on both sides.
+/// Liquid volume that moves with each face: its area share of the half pores on both sides.
 pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
     let mass = |(index, (face, parts)): (usize, (&Face, &[f64; 2]))| {
         let axis = usize::from(face.axis);
@@ -48,7 +48,7 @@ pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
     faces.map(mass).collect()
 }
 
-/// Liquid of the halves of each face, times the viscosity of their pores where that of edges is none of its own.
+/// Sum over the halves of each face of liquid fraction times viscosity; without the viscosity where edges have their own.
 pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosities: &Viscosities) -> Vec<f64> {
     let own = viscosities.edges.is_empty();
     let viscosity = |pore: usize| if own { viscosities.pores[pore] } else { 1.0 };

@@ -1,4 +1,4 @@
-//! Unknowns and equations of one step.
+//! Unknowns, equations and solution of a step (docs/methods.md sections 3.3 to 3.8 and 3.12).
 
 mod assembly;
 mod coupling;

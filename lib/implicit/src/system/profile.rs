@@ -1,20 +1,20 @@
-//! Velocity at a place in a pore, from those of its faces.
+//! Velocity within pores, interpolated from face velocities (docs/methods.md section 3.15).
 
 use rayon::prelude::*;
 
 use super::FlowField;
 use crate::geometry::{Lattice, others};
 
-/// A flow, to find velocities within pores. Along its own axis a velocity is linear from face to face. Across it, in cells of two
-/// voxels, it has the slope at the middle of a parabola whose slopes at the two sides of the face are the rates of shear there.
+/// Velocity profiles of a flow within pores. A component is linear along its own axis from face to face. Across it, in cells of two
+/// voxels, it has the slope in the middle of a parabola whose slopes at the two sides of the face are the shear rates there.
 pub(crate) struct Profile<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) flow: FlowField<'a>,
-    /// Slopes of the velocity of each face along the two axes across it, the lower first, 1/s; none of cells of one voxel.
+    /// Gradients of the velocity of each face along its two tangential axes, the lower first, 1/s; empty for cells of one voxel.
     slopes: Vec<[f64; 2]>,
 }
 
-/// Velocities of the columns of voxels at a side of a pore, by their place across: the first axis runs fastest.
+/// Velocities of the voxel columns at a side of a pore, the lower tangential axis fastest; `None` where the liquid ends.
 type Columns = [Option<f64>; 4];
 
 impl<'a> Profile<'a> {
@@ -31,7 +31,7 @@ impl<'a> Profile<'a> {
         }
     }
 
-    /// Velocities at the middles of the voxels of a pore, in their order, cells/s.
+    /// Velocities at the centres of the voxels of a pore, in their order, cells/s.
     pub(crate) fn of_pore(&self, pore: usize) -> impl Iterator<Item = [f64; 3]> {
         let sides: [[Columns; 2]; 3] = std::array::from_fn(|axis| {
             [false, true].map(|up| match self.lattice.flat && axis == 2 {
@@ -58,7 +58,7 @@ impl<'a> Profile<'a> {
         self.flow.mesh.voxels(pore).map(at)
     }
 
-    /// Velocities against the grid of the columns of voxels at one side of a pore: 0 at walls, none where the liquid ends.
+    /// Velocities relative to the grid of the voxel columns at one side of a pore: 0 at walls.
     fn columns(&self, pore: usize, axis: usize, up: bool) -> Columns {
         let (mesh, across) = (self.flow.mesh, others(axis));
         let k = mesh.k;
@@ -81,8 +81,8 @@ impl<'a> Profile<'a> {
         side
     }
 
-    /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there,
-    /// of those of the side; none where the liquid ends.
+    /// End of a voxel's column along an axis: its position, voxels from the low side of the cell, and the velocity relative to the grid
+    /// there, 0 at a wall within the cell, else that of the `side` of the pore.
     fn column_end(
         &self,
         pore: usize,
@@ -109,7 +109,7 @@ impl<'a> Profile<'a> {
 }
 
 impl FlowField<'_> {
-    /// Velocity of a pore by the means of its faces on the two sides along each axis, cells/s.
+    /// Mean velocity of a pore: along each axis the mean of its two sides, by area, cells/s.
     pub(crate) fn mean(&self, lattice: &Lattice, pore: usize) -> [f64; 3] {
         let mesh = self.mesh;
         std::array::from_fn(|axis| {
@@ -126,7 +126,7 @@ impl FlowField<'_> {
         })
     }
 
-    /// Velocity of the grid along an axis at one side of a pore's cell.
+    /// Velocity of the grid along an axis at one side of a pore's cell, cells/s.
     fn grid_velocity(&self, lattice: &Lattice, pore: usize, axis: usize, up: bool) -> f64 {
         if axis != 1 {
             return 0.0;
@@ -136,20 +136,20 @@ impl FlowField<'_> {
         lattice.grid_speed(share) * self.speed
     }
 
-    /// Whether a face had a velocity in the step: others have none at all.
+    /// Whether the velocity of a face was an unknown of the step: those of others are exactly zero.
     fn moves(&self, face: usize) -> bool {
         self.velocity[face] != 0.0
     }
 
-    /// Slopes of the velocity of a face along the two axes across it: means of the rates of shear at its two sides. Where it
-    /// borders on no other face these are the rates at its walls, and none where the liquid ends.
+    /// Gradients of the velocity of a face along its two tangential axes: means of the shear rates at its two sides. Where a side has
+    /// no next face this is the wall shear rate, and zero where the liquid ends.
     fn slopes(&self, face: usize) -> [f64; 2] {
         if !self.moves(face) {
             return [0.0; 2];
         }
         let (mesh, f) = (self.mesh, self.mesh.faces[face]);
         let at_walls = self.wall_shear_rate(face);
-        // Columns of voxels that the face is open to, across each axis.
+        // Number of open voxel columns of the face, transverse to each of the two axes.
         let columns = [
             (f.open | f.open >> 1) & 0b0101,
             (f.open | f.open >> 2) & 0b0011,
@@ -177,7 +177,7 @@ impl FlowField<'_> {
         })
     }
 
-    /// Rate of shear at the walls of a face by which they pull it on, 1/s.
+    /// Mean shear rate at the walls of a face, 1/s, positive if the walls accelerate it.
     fn wall_shear_rate(&self, face: usize) -> f64 {
         let coupling = self.couplings.of(face);
         if coupling.area == 0.0 {

@@ -1,4 +1,4 @@
-//! Solution of the equations of a step, and the forces on the bodies.
+//! Solution of the equations of a step, and forces on the bodies.
 
 use std::time::Instant;
 
@@ -10,12 +10,13 @@ use super::stretching::stretching;
 use crate::clock::{Clock, Stage};
 use crate::geometry::{MIRROR, OPEN};
 
-/// How the body that closes the gap is driven.
+/// How the moving body is driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Drive {
-    /// At this speed, cells/s.
+    /// At a prescribed speed, cells/s.
     Speed(f64),
-    /// By a force over the unit of viscosity, of which errors are measured by `scale`, at a speed near `guess`.
+    /// By a force over the unit of viscosity, at an unknown speed that is estimated as `start_speed`; `scale` is that of errors in
+    /// the force.
     Force {
         force: f64,
         scale: f64,
@@ -24,7 +25,7 @@ pub(crate) enum Drive {
 }
 
 impl Drive {
-    /// The closing speed, or the guess at it.
+    /// The closing speed, or its estimate.
     pub(super) fn speed(self) -> f64 {
         match self {
             Self::Speed(speed)
@@ -35,16 +36,16 @@ impl Drive {
     }
 }
 
-/// What flows in a step.
+/// The flow in a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flow {
-    /// Velocity of each face against the grid, cells/s.
+    /// Velocity of each face relative to the grid, cells/s.
     pub(crate) velocity: Vec<f64>,
     /// Pressure of each pore over the unit of viscosity.
     pub(crate) pressure: Vec<f64>,
     /// Closing speed, cells/s.
     pub(crate) speed: f64,
-    /// Force on the body that closes the gap, against it.
+    /// Force of the liquid on the moving body, positive against its motion.
     pub(crate) force: f64,
     /// Viscous dissipation, over the unit of viscosity.
     pub(crate) dissipation: f64,
@@ -52,7 +53,7 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// The same flow at another closing speed, if there is one.
+    /// Scales the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
     pub(crate) fn scale_to_speed(&mut self, speed: f64) {
         let factor = speed / self.speed;
         if !(factor > 0.0 && factor.is_finite()) || factor == 1.0 {
@@ -64,8 +65,8 @@ impl Flow {
     }
 }
 
-/// Solves a problem. `carried` is the volume, over the time step, that each pore with a pressure holds more than its
-/// volume at no pressure, and `guess` a flow to start from.
+/// Solves a problem from the flow `start`. `excess_rate` is the excess of the liquid in each pore with a pressure over the pore's
+/// volume, per time.
 pub(crate) fn solve(
     problem: &Problem,
     excess_rate: &[f64],
@@ -113,8 +114,8 @@ pub(crate) fn solve(
     })
 }
 
-/// Forces on the bodies along y, over the unit of viscosity: pressure and viscous tension on walls across y, friction on
-/// those along it.
+/// Forces on the bodies along y, over the unit of viscosity: pressure and viscous normal stress on walls normal to y, friction
+/// on those parallel to it.
 pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
     let mesh = problem.mesh;
     let mut forces = vec![0.0; bodies];

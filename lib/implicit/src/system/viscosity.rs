@@ -1,4 +1,4 @@
-//! Shear rates of a flow, and the viscosities that follow from them.
+//! Shear rates of a flow, and the viscosities that follow from them (docs/methods.md section 3.8).
 
 use physics::{Liquid, ShearRate, Viscosity};
 use rayon::prelude::*;
@@ -9,8 +9,8 @@ use super::stretching::stretching;
 use super::thinning::{steepness, thinning_distance};
 use crate::geometry::{Mesh, Neighbour, others};
 
-/// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge; none of the latter two
-/// where they are those of the pores.
+/// Viscosities over their unit: of each pore, at the walls of the two halves of each face, and at each edge. The latter two are
+/// empty where the viscosities of the pores apply.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Viscosities {
     pub(crate) pores: Vec<f64>,
@@ -27,14 +27,14 @@ impl Viscosities {
         }
     }
 
-    /// Those at the walls of the halves of a face between two pores.
+    /// Viscosities at the walls of the two halves of a face; `ends` are its pores.
     pub(super) fn at_walls(&self, face: usize, ends: [usize; 2]) -> [f64; 2] {
         let own = self.walls.get(face).copied();
         own.unwrap_or_else(|| ends.map(|pore| self.pores[pore]))
     }
 
-    /// Those of a flow: `factor` times the law of the liquid, in Pa s. Walls have their rate times their share, and the viscosity
-    /// there times it; `slip` is the influence length, cells.
+    /// Viscosities at the `rates` of a flow: `factor` times the law of the liquid (Pa s). At walls both the rate and the viscosity are
+    /// multiplied by the thinning factor; `slip` is the influence length, cells.
     pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
         let law = &liquid.viscosity;
         let at = |rate: f64| factor * law.at(rate);
@@ -49,7 +49,7 @@ impl Viscosities {
         }
     }
 
-    /// These times a factor of each pore.
+    /// The viscosities times a `factor` of each pore; edges take the mean of the four pores around.
     pub(crate) fn thickened(&self, mesh: &Mesh, edges: &Edges, factor: &[f64]) -> Self {
         let mut thick = self.clone();
         if !thick.edges.is_empty() {
@@ -72,8 +72,8 @@ impl Viscosities {
     }
 }
 
-/// Rate of simple shear at walls, 1/s, the distance to them, the width between them, and where the first edge lies off them,
-/// cells.
+/// Shear at the walls of a face: the rate of simple shear, 1/s, the effective distance d_w, the width H of the channel, and the
+/// distance of the first edge from the wall, cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WallShear {
     pub(super) rate: f64,
@@ -83,7 +83,7 @@ pub(crate) struct WallShear {
 }
 
 impl WallShear {
-    /// What the rate there is multiplied by, and the viscosity, for the distance that suits a liquid of this `law`.
+    /// Ratio of the wall distances of a Newtonian liquid and of one with this `law`, a factor on both the rate and the viscosity.
     pub(super) fn thinning_factor(&self, law: &Viscosity, slip: f64) -> f64 {
         if self.rate <= 0.0 {
             return 1.0;
@@ -94,7 +94,7 @@ impl WallShear {
     }
 }
 
-/// Shear rates, 1/s, by the convention of the scene: of each pore and edge; and at the walls of each face.
+/// Shear rates, 1/s: of each pore and edge by the scene's convention, and at the walls of each face.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {
     pub(crate) pores: Vec<f64>,
@@ -103,7 +103,7 @@ pub(crate) struct Rates {
 }
 
 impl Rates {
-    /// Dissipation of each pore where liquid has these viscosities.
+    /// Viscous dissipation in each pore with these viscosities.
     pub(crate) fn power(
         &self,
         viscosities: &Viscosities,
@@ -118,25 +118,25 @@ impl Rates {
     }
 }
 
-/// The rate of a square of that of simple shear.
+/// Shear rate by the convention, from the square of the rate of simple shear, 2 D:D.
 fn rate_of_square(square: f64, convention: ShearRate) -> f64 {
     // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
     convention.factor() / std::f64::consts::SQRT_2 * square.max(0.0).sqrt()
 }
 
-/// A flow with the friction of walls, to take rates of.
+/// A flow with the wall couplings and edges that its shear rates depend on.
 pub(crate) struct FlowField<'a> {
     pub(crate) mesh: &'a Mesh,
     pub(crate) couplings: &'a WallCouplings,
     pub(crate) edges: &'a Edges,
-    /// Velocity of each face, cells/s.
+    /// Velocity of each face relative to the grid, cells/s.
     pub(crate) velocity: &'a [f64],
     /// Closing speed, cells/s.
     pub(crate) speed: f64,
 }
 
 impl FlowField<'_> {
-    /// Rates of pores, edges and walls. That of a pore has the mean dissipation over it.
+    /// Shear rates of pores, edges and walls. That of a pore is the rate with its mean dissipation.
     pub(crate) fn rates(&self, convention: ShearRate, slip: f64) -> Rates {
         let (pores, parts) = self.pore_rates(convention);
         let rate = |square: f64| rate_of_square(square, convention);
@@ -151,8 +151,7 @@ impl FlowField<'_> {
         }
     }
 
-    /// Those of pores alone, and the parts of their squares, whose dissipation is the mean over each: by stretching, and by shear
-    /// around each axis.
+    /// Shear rates of pores, and the parts of their squares: by stretching, and by shear about x, y, z.
     pub(crate) fn pore_rates(&self, convention: ShearRate) -> (Vec<f64>, Vec<[f64; 4]>) {
         let mesh = self.mesh;
         let sheared: Vec<[f64; 2]> = (0..mesh.faces.len())
@@ -169,7 +168,7 @@ impl FlowField<'_> {
         (rates.collect(), parts)
     }
 
-    /// Dissipation at the edges of a face, a quarter of each, by the axis that they lie along, the lower first.
+    /// Dissipation over viscosity at the edges of a face, a quarter of each, summed by the axis of the edge, the lower first.
     fn edge_dissipation(&self, face: usize) -> [f64; 2] {
         let (mesh, u) = (self.mesh, self.velocity);
         let [first, _] = others(usize::from(mesh.faces[face].axis));
@@ -187,7 +186,8 @@ impl FlowField<'_> {
         sums
     }
 
-    /// The squares of one pore, by the shear of faces.
+    /// Parts of the squared shear rate of a pore: stretching and shear about x, y, z; and that by wall friction. `sheared` is
+    /// [`Self::edge_dissipation`] of each face.
     fn square_parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
@@ -215,7 +215,7 @@ impl FlowField<'_> {
         (parts.map(|part| part / volume), walls / volume)
     }
 
-    /// What the walls of a face do.
+    /// Shear at the walls of a face; `slip` is the influence length, cells.
     fn wall_rate(&self, face: usize, slip: f64) -> WallShear {
         let coupling = self.couplings.of(face);
         let friction: f64 = coupling.friction.iter().sum();
@@ -226,7 +226,7 @@ impl FlowField<'_> {
             .map(|half| coupling.sliding[half][0] + coupling.sliding[half][1] * self.speed)
             .sum();
         if coupling.area == 0.0 {
-            // Past a corner alone, a cell off.
+            // Only past a corner: the wall is a cell away.
             return WallShear {
                 rate: (self.velocity[face] - wall / friction).abs(),
                 distance: 1.0,

@@ -1,35 +1,36 @@
-//! Passes in which the viscosity of a flow is sought: how far one is off, and where the next one goes on from, by how the flow
-//! answered the last change of the viscosity.
+//! Fixed-point iteration on the viscosity field of a liquid whose viscosity depends on the shear rate, accelerated by the response
+//! of the rates to the last change of the viscosity (docs/methods.md section 3.8).
 
 use physics::Liquid;
 use rayon::prelude::*;
 
 use super::viscosity::{Rates, Viscosities, WallShear};
 
-/// Passes over what depends on the solution, at most: what settles takes fewer.
+/// Bound on the iterations over all that depends on the solution; those that converge take fewer.
 pub(crate) const PASSES: usize = 30;
 
-/// Largest exponent of a rate that is anticipated, and how near it is found.
+/// Largest |ln| of the factor by which a rate is extrapolated, and the tolerance to which it is solved.
 const MAX_EXPONENT: f64 = 30.0;
 const EXPONENT_TOLERANCE: f64 = 0.05 * SETTLED;
-/// Mean change of ln(viscosity), weighted by dissipation, that ends the passes; a smaller one tells nothing of the answer.
+/// Mean change of ln(viscosity), weighted by dissipation, at which the iteration ends. A smaller one says nothing of the response.
 const SETTLED: f64 = 2e-3;
 
-/// The viscosities that the flow of a step is sought with, pass by pass, for a liquid whose viscosity depends on the rate.
+/// The iteration on the viscosity field of a step.
 pub(crate) struct ViscosityIteration<'a> {
     pub(crate) liquid: &'a Liquid,
-    /// What the law is multiplied by.
+    /// Factor on the liquid's law.
     pub(crate) factor: f64,
     /// Influence length, cells.
     pub(crate) slip: f64,
-    /// Those of the next pass.
+    /// The viscosities for the next solve.
     pub(crate) used: Viscosities,
     last: Option<Evaluation>,
+    /// d ln(rate)/d ln(viscosity), estimated.
     response: f64,
 }
 
 impl<'a> ViscosityIteration<'a> {
-    /// One that begins with the viscosities `used`.
+    /// Starts with the viscosities `used`.
     pub(crate) fn new(liquid: &'a Liquid, factor: f64, slip: f64, used: Viscosities) -> Self {
         Self {
             liquid,
@@ -41,8 +42,8 @@ impl<'a> ViscosityIteration<'a> {
         }
     }
 
-    /// Takes in the `rates` and the dissipation of each pore of the flow that came of the viscosities used, and says whether
-    /// that flow has them.
+    /// Updates the viscosities by the `rates` and the dissipation (`power`) of each pore of the flow that was solved with them. Returns
+    /// whether the iteration has converged.
     pub(crate) fn update(&mut self, rates: Rates, power: Vec<f64>) -> bool {
         let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
@@ -60,7 +61,7 @@ impl<'a> ViscosityIteration<'a> {
     }
 }
 
-/// A flow, and the viscosities by the law of the liquid that it was solved with.
+/// The viscosities used in a solve, and the rates of the resulting flow.
 struct Evaluation {
     used: Viscosities,
     rates: Rates,
@@ -69,7 +70,7 @@ struct Evaluation {
 }
 
 impl Evaluation {
-    /// Mean change of ln(viscosity) to that of the `law` at the rates, weighted by dissipation.
+    /// Mean change of ln(viscosity) from those used to those of the `law` at the rates, weighted by dissipation.
     fn change(&self, law: &Viscosities) -> f64 {
         let mut sums = [0.0; 2];
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
@@ -82,9 +83,9 @@ impl Evaluation {
         }
     }
 
-    /// How ln(rate) answers ln(viscosity) from the pass `before` to this one, weighted by dissipation: -1 where the load is
-    /// given, 0 where the speed is. Some parts of a flow have the one and some the other, and what one pass tells is of those that
-    /// it changed most: half of it counts, and half of what was known `last`.
+    /// Response d ln(rate)/d ln(viscosity) from the solve `before` to this one, weighted by dissipation: -1 where the stress is given,
+    /// 0 where the speed is. Parts of a flow differ, and one solve shows those that it changed most, so the result is the mean of
+    /// the new estimate and the `last` one.
     fn response(&self, before: &Self, last: f64) -> f64 {
         let (mut answer, mut cause, mut weight) = (0.0, 0.0, 0.0);
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
@@ -103,9 +104,9 @@ impl Evaluation {
         }
     }
 
-    /// The viscosities that the law of `liquid`, times `factor`, has at the rates which follow from them, if rates go with the
-    /// power `response` of the viscosity from here. Exact in a channel under a given load, where passes that take the
-    /// viscosity of the rates (a response of 0) come nearer by a part only, and hardly so where a liquid yields.
+    /// Extrapolated viscosities: those of the law of `liquid`, times `factor`, at rates that change with the power `response` of the
+    /// viscosity. Exact in a channel under a given pressure drop, where plain fixed-point iteration (a response of 0) converges
+    /// slowly, and hardly at all for a yielding liquid.
     fn extrapolated(&self, liquid: &Liquid, factor: f64, slip: f64, response: f64) -> Viscosities {
         let law = &liquid.viscosity;
         let of = |rate: f64, used: f64| {
@@ -132,8 +133,8 @@ impl Evaluation {
     }
 }
 
-/// ln(viscosity) x with x = ln eta(rate exp(response (x - used))), for a stress that does not fall with
-/// the rate: by the Illinois variant of false position in the exponent.
+/// Solves x = ln eta(rate exp(response (x - used))) for x, ln(viscosity), by the Illinois variant of false position in the
+/// exponent. The stress must not fall with the rate.
 fn self_consistent(ln_eta: impl Fn(f64) -> f64, used: f64, rate: f64, response: f64) -> f64 {
     let at = |exponent: f64| ln_eta(rate * exponent.exp());
     let excess = |exponent: f64| exponent - response * (at(exponent) - used);
@@ -184,7 +185,7 @@ mod tests {
         assert!((of_the_rate / 2_f64.powf(-0.7) - 1.0).abs() < 1e-12);
     }
 
-    /// A liquid that hardly resists at any rate: its rate of e^999 is looked for up to e^30 in doublings.
+    /// A law whose stress is nearly constant: the solution, a rate of e^999, lies beyond the largest exponent.
     #[test]
     fn no_rate_is_sought_beyond_thirteen_decades() {
         let ln_eta = |rate: f64| -0.999 * rate.ln();
