@@ -20,8 +20,8 @@ pub(crate) struct Gas {
     pub(crate) leak_time: f64,
 }
 
-/// The gas law of a pocket linearised about a volume: V_end = `volume` - `compliance` (p - `pressure`). Pressures are relative to
-/// ambient.
+/// The gas law of a pocket linearised about a volume: V_end = `volume` - `compliance` (p - `pressure`). Pressures are
+/// relative to ambient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Tangent {
     /// Volume about which the law is linearised, cells.
@@ -44,7 +44,8 @@ impl Tangent {
 }
 
 impl Gas {
-    /// Air with the ambient pressure `outside` (Pa, absolute), next to a liquid of the law `tait`; `unit` is that of pressure, Pa.
+    /// Air with the ambient pressure `outside` (Pa, absolute), next to a liquid of the law `tait`; `unit` is that of
+    /// pressure, Pa.
     pub(crate) fn new(outside: f64, leak_time: f64, tait: Tait, unit: f64) -> Self {
         Self {
             outside: outside / unit,
@@ -53,8 +54,8 @@ impl Gas {
         }
     }
 
-    /// Tangent about a `volume` (cells) at the end of a step of `dt` (s), for a pocket with the `mass` m, absolute pressure times
-    /// volume at the start of the step: p V = m - (exp(dt/t_leak) - 1) (p - p_0) V, which is exact at constant volume.
+    /// Tangent about a `volume` (cells) at the end of a step of `dt` (s), for a pocket with the `mass` m, absolute pressure
+    /// times volume at the start of the step: p V = m - (exp(dt/t_leak) - 1) (p - p_0) V, which is exact at constant volume.
     pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
         let leak = self.leak_factor(dt);
         // A lower bound on the pressure within the tolerance: a void without air would have no finite tangent.
@@ -67,16 +68,16 @@ impl Gas {
         }
     }
 
-    /// Whether a pressure (relative to ambient) and the volume that the tangent gives for it obey the gas law. An absolute error of
-    /// [`DRIFT`] in the volume is accepted: a void without air collapses to nothing at any liquid pressure.
+    /// Whether a pressure (relative to ambient) and the volume that the tangent gives for it obey the gas law. An absolute
+    /// error of [`DRIFT`] in the volume is accepted: a void without air collapses to nothing at any liquid pressure.
     pub(crate) fn obeys_law(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
         let off = right.compliance * (pressure - right.pressure).abs();
         off <= (MISSED * right.volume).max(DRIFT)
     }
 
-    /// The part of `mass` that leaks out in a step of `dt` (s), at whose end the pocket has this volume and this pressure (relative
-    /// to ambient).
+    /// The part of `mass` that leaks out in a step of `dt` (s), at whose end the pocket has this volume and this pressure
+    /// (relative to ambient).
     pub(crate) fn leaked(&self, mass: f64, volume: f64, pressure: f64, dt: f64) -> f64 {
         (self.leak_factor(dt) * pressure * volume).min(mass)
     }

@@ -29,8 +29,8 @@ pub(crate) struct Air {
 }
 
 impl Air {
-    /// The pockets into which pores that are `full` divide the air. `mass` is the gas in each pore, `void` its empty volume. Air
-    /// escapes through open sides of the domain, and through the sides normal to y if `along_y`.
+    /// The pockets into which pores that are `full` divide the air. `mass` is the gas in each pore, `void` its empty volume.
+    /// Air escapes through open sides of the domain, and through the sides normal to y if `along_y`.
     pub(crate) fn new(
         mesh: &Mesh,
         has_pressure: impl Fn(usize) -> bool,
@@ -69,7 +69,8 @@ impl Air {
         air
     }
 
-    /// Adds connected pores: as outside air if they are `open`, else as a pocket, `wet` if it borders on liquid with a pressure.
+    /// Adds connected pores: as outside air if they are `open`, else as a pocket, `wet` if it borders on liquid with a
+    /// pressure.
     fn add(&mut self, mut pores: Vec<u32>, open: bool, wet: bool, void: &[f64]) {
         if open {
             self.outside.append(&mut pores);
@@ -112,8 +113,8 @@ impl Air {
         }
     }
 
-    /// Whether the pressures found for a step of `dt` (s) obey the gas law in all pockets. If not, linearises the law anew about the
-    /// volumes found.
+    /// Whether the pressures found for a step of `dt` (s) obey the gas law in all pockets. If not, linearises the law anew
+    /// about the volumes found.
     pub(crate) fn update_tangents(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
         let pressure = |pocket: &Pocket| pressures[pocket.pores[0] as usize];
         let agrees =
@@ -128,8 +129,8 @@ impl Air {
         false
     }
 
-    /// The gas in each pore after the step, by the empty volumes `void` then: a pocket has one pressure throughout, outside air the
-    /// pressure `outside`.
+    /// The gas in each pore after the step, by the empty volumes `void` then: a pocket has one pressure throughout, outside
+    /// air the pressure `outside`.
     pub(crate) fn mass_after_step(mut self, void: &[f64], outside: f64) -> Vec<f64> {
         for pocket in self.pockets.iter().chain(&self.dry) {
             let all: f64 = pocket.pores.iter().map(|&pore| void[pore as usize]).sum();

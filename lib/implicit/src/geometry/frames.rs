@@ -95,8 +95,8 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// The gap lies between the moving body and the nearest face of another body ahead of it, else the side of the domain. Without
-    /// a moving body it has no height and lies at the low side of the domain.
+    /// The gap lies between the moving body and the nearest face of another body ahead of it, else the side of the domain.
+    /// Without a moving body it has no height and lies at the low side of the domain.
     pub(super) fn new(scene: &Scene) -> Result<Self, String> {
         let [low, high] = [scene.grid.min_m[1], scene.grid.max_m()[1]];
         let moving = moving(scene)?;

@@ -133,8 +133,8 @@ impl Lattice {
         })
     }
 
-    /// The lattice of one body at rest followed by its mirror image along `axis`: `size` cells of `k` voxels an edge from its low
-    /// corner, periodic along `axis`, with these `sides` along the other axes.
+    /// The lattice of one body at rest followed by its mirror image along `axis`: `size` cells of `k` voxels an edge from
+    /// its low corner, periodic along `axis`, with these `sides` along the other axes.
     pub(crate) fn of_voxels(
         solid: &VoxelBlock,
         k: usize,

@@ -45,8 +45,8 @@ impl Mesh {
         self.measures.heights[self.row_of(pore)][0]
     }
 
-    /// Least height of the pore's row and its two neighbours, at most one cell. It scales the re-entrant correction: in a thin film
-    /// an edge acts no farther than the film is high.
+    /// Least height of the pore's row and its two neighbours, at most one cell. It scales the re-entrant correction: in a
+    /// thin film an edge acts no farther than the film is high.
     pub(crate) fn lowest_row(&self, pore: usize) -> f64 {
         self.measures.heights[self.row_of(pore)][1]
     }

@@ -56,8 +56,8 @@ impl Neighbour {
     }
 }
 
-/// The pores and faces of a range of rows. Cells are numbered x first, then y (rows), then z. Beyond each open side lies a layer
-/// of ghost cells that takes the outflow.
+/// The pores and faces of a range of rows. Cells are numbered x first, then y (rows), then z. Beyond each open side lies a
+/// layer of ghost cells that takes the outflow.
 pub(crate) struct Mesh {
     pub(crate) k: usize,
     /// Cells along x, rows, cells along z, ghost cells included.
@@ -310,7 +310,8 @@ impl Mesh {
         })
     }
 
-    /// The pores that are connected to `first` through pores for which `within` holds. Marks them in `found`, and skips those marked.
+    /// The pores that are connected to `first` through pores for which `within` holds. Marks them in `found`, and skips
+    /// those marked.
     pub(crate) fn connected(
         &self,
         first: usize,

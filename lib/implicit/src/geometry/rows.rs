@@ -19,7 +19,8 @@ pub(crate) struct Rows {
     pub(crate) height: f64,
 }
 
-/// Bound on accumulated rounding, in cells or as a share of the water: far above what rounding does, far below what a step does.
+/// Bound on accumulated rounding, in cells or as a share of the water: far above what rounding does, far below what a step
+/// does.
 pub(crate) const DRIFT: f64 = 1e-6;
 
 impl Rows {
@@ -66,8 +67,8 @@ impl Rows {
         }
     }
 
-    /// Velocity of the low side of a row relative to the part below, over that of the part above: 0 below, 1 above, linear across
-    /// the gap.
+    /// Velocity of the low side of a row relative to the part below, over that of the part above: 0 below, 1 above, linear
+    /// across the gap.
     pub(crate) fn closing_share(&self, row: usize) -> f64 {
         match self.kind(row) {
             RowKind::Below => 0.0,

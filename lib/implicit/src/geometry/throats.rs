@@ -8,9 +8,9 @@ use super::mesh::{Mesh, others};
 /// opens into the bond line it is larger.
 const MAX_WIDENING: f64 = 3.0;
 
-/// Perimeter over area of the throat at a pore, 1/cells: the sum of 2/d over its two smallest widths d that liquid spans, so 4/d
-/// in a tube and 2/d in a slit. It is 0 for walls that are too far apart and for a film on one wall. `wet` says which pores are
-/// full.
+/// Perimeter over area of the throat at a pore, 1/cells: the sum of 2/d over its two smallest widths d that liquid spans, so
+/// 4/d in a tube and 2/d in a slit. It is 0 for walls that are too far apart and for a film on one wall. `wet` says which
+/// pores are full.
 pub(crate) fn perimeter_over_area(
     lattice: &Lattice,
     chords: &Chords,
@@ -43,8 +43,8 @@ struct ThroatView<'a> {
 type Voxel = (usize, [usize; 3]);
 
 impl ThroatView<'_> {
-    /// Perimeter over area at one voxel, 1/voxels. In plane strain the throat has no walls along z. A width counts as one voxel at
-    /// least: images resolve no less, and the capillary pressure of a closing gap would grow without limit.
+    /// Perimeter over area at one voxel, 1/voxels. In plane strain the throat has no walls along z. A width counts as one
+    /// voxel at least: images resolve no less, and the capillary pressure of a closing gap would grow without limit.
     fn at_voxel(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
         let place = self.mesh.place(cell);
         let Some(place) = self.mesh.lattice_place(self.lattice, place, voxel) else {
@@ -71,8 +71,8 @@ impl ThroatView<'_> {
             .sum()
     }
 
-    /// Whether liquid spans the chord along an axis through a voxel: both ends and the middle are wet, here or at a parallel chord
-    /// that is no farther off along another axis than the chord is long. No meniscus is deeper than that.
+    /// Whether liquid spans the chord along an axis through a voxel: both ends and the middle are wet, here or at a parallel
+    /// chord that is no farther off along another axis than the chord is long. No meniscus is deeper than that.
     fn is_spanned(
         &self,
         voxel: Voxel,
@@ -117,8 +117,9 @@ impl ThroatView<'_> {
         })
     }
 
-    /// Width of the throat along an axis: the longest parallel chord whose half length is at least its distance from the voxel. In a
-    /// round section that is the diameter. Chords displaced along the throat's own axis, the longest chord, do not count.
+    /// Width of the throat along an axis: the longest parallel chord whose half length is at least its distance from the
+    /// voxel. In a round section that is the diameter. Chords displaced along the throat's own axis, the longest chord, do
+    /// not count.
     fn throat_width(&self, place: VoxelPlace, axis: usize, lengths: &[f64; 3]) -> f64 {
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let mut widest = lengths[axis];

@@ -7,14 +7,14 @@ use super::lattice::{Lattice, MIRROR, OPEN};
 use super::mesh::{Face, Mesh, Pore, others};
 use super::rows::RowKind;
 
-/// Factors on friction and shear half a voxel from a re-entrant edge, relative to linear profiles (docs/methods.md section 3.5).
-/// Rows: one or two voxels along the edge of a cell; columns: the number of the two transverse axes along which the edge lies
-/// inside a cell. Flow along such an edge is u ~ r^(2/3) sin(2 theta/3); with these factors a single edge adds no far field
-/// c r^(-2/3) sin(2 theta/3).
+/// Factors on friction and shear half a voxel from a re-entrant edge, relative to linear profiles (docs/methods.md section
+/// 3.5). Rows: one or two voxels along the edge of a cell; columns: the number of the two transverse axes along which the
+/// edge lies inside a cell. Flow along such an edge is u ~ r^(2/3) sin(2 theta/3); with these factors a single edge adds no
+/// far field c r^(-2/3) sin(2 theta/3).
 const REENTRANT: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 
-/// Reach of [`Mesh::step_proximity`] along a wall, cells, rounded up. Nearer to the end of a mesh its result may change when the
-/// mesh grows.
+/// Reach of [`Mesh::step_proximity`] along a wall, cells, rounded up. Nearer to the end of a mesh its result may change when
+/// the mesh grows.
 pub(crate) const STEP_REACH: usize = 2;
 
 /// A voxel: its cell and its position in the cell.
@@ -118,8 +118,8 @@ impl Mesh {
         self.next_cell(cell, axis, up).map(|cell| (cell, voxel))
     }
 
-    /// Logarithm of the re-entrant correction ([`REENTRANT`]) of friction or shear between an open voxel and its next one along `t`:
-    /// the sum over the re-entrant edges at both sides along `across`. For cubic cells.
+    /// Logarithm of the re-entrant correction ([`REENTRANT`]) of friction or shear between an open voxel and its next one
+    /// along `t`: the sum over the re-entrant edges at both sides along `across`. For cubic cells.
     pub(crate) fn ln_reentrant_factor(
         &self,
         at: VoxelAt,
@@ -172,8 +172,8 @@ impl Mesh {
         (code != MIRROR).then_some(code != OPEN)
     }
 
-    /// s of docs/methods.md section 3.5: whether the wall that bounds an open voxel along `t` ends in a step along `across`, 1 within
-    /// a cell, 0 from 1.5 cells on, linear between.
+    /// s of docs/methods.md section 3.5: whether the wall that bounds an open voxel along `t` ends in a step along `across`,
+    /// 1 within a cell, 0 from 1.5 cells on, linear between.
     pub(crate) fn step_proximity(&self, start: VoxelAt, [t, across]: [usize; 2], up: bool) -> f64 {
         let is_wall = |at: VoxelAt| self.is_wall(at);
         let mut nearest = f64::INFINITY;

@@ -70,7 +70,8 @@ fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
     (0..=k * mesh.size[axis]).map(side).collect()
 }
 
-/// Spreads a value over the open voxels of a box around `at` (cells from the origin); `None` where `at` itself is in no open voxel.
+/// Spreads a value over the open voxels of a box around `at` (cells from the origin); `None` where `at` itself is in no open
+/// voxel.
 fn spread(
     mesh: &Mesh,
     sides: &[Vec<f64>; 3],

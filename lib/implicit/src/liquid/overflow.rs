@@ -62,10 +62,10 @@ pub(super) fn overflow(
     }
 }
 
-/// How much of an excess leaves through each outlet, as face, side and volume. It goes first where there is free volume, along
-/// the flow and then anywhere; the rest goes to full pores along the flow, then back where it came from, then anywhere. Passed on
-/// to other pores without free volume it would only come back. A neighbour never gets more than its free volume, so one with next
-/// to none makes no difference.
+/// How much of an excess leaves through each outlet, as face, side and volume. It goes first where there is free volume,
+/// along the flow and then anywhere; the rest goes to full pores along the flow, then back where it came from, then
+/// anywhere. Passed on to other pores without free volume it would only come back. A neighbour never gets more than its free
+/// volume, so one with next to none makes no difference.
 fn shares(outlets: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
     type Weight = fn(&Outlet) -> f64;
     // Weight of an outlet, and whether free volume bounds its share.

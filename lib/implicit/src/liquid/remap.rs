@@ -18,8 +18,8 @@ fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
     old.range.contains(&row).then(|| row - old.range.start)
 }
 
-/// The active cells of a new mesh with these `rows`, those in `range`: the cells where the `wet` cells of `old` lie, and `margin`
-/// cells around them.
+/// The active cells of a new mesh with these `rows`, those in `range`: the cells where the `wet` cells of `old` lie, and
+/// `margin` cells around them.
 pub(crate) fn remapped_region(
     old: &Mesh,
     wet: &Region,
@@ -53,8 +53,8 @@ pub(crate) fn remapped_region(
 pub(crate) struct FaceMap(pub(crate) Vec<Option<(u32, bool)>>);
 
 impl FaceMap {
-    /// The map from faces of `new` to those of `old`. Surroundings count as changed next to the gap, at the ends of the rows and at
-    /// the boundary of the active cells.
+    /// The map from faces of `new` to those of `old`. Surroundings count as changed next to the gap, at the ends of the rows
+    /// and at the boundary of the active cells.
     pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
         let in_rows = |mesh: &Mesh, row: usize| {
             let range = &mesh.range;

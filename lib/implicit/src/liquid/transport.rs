@@ -7,10 +7,11 @@ use super::overflow::overflow;
 use crate::geometry::{Mesh, Neighbour};
 
 /// Least ratio of the surface normal's component along the flow to that across it for which the flux takes the acceptor's
-/// fraction. A smaller value would do so along surfaces parallel to the flow; a larger one smears fronts that are slightly inclined.
+/// fraction. A smaller value would do so along surfaces parallel to the flow; a larger one smears fronts that are slightly
+/// inclined.
 const MIN_NORMAL: f64 = 0.7;
-/// Courant number of a substep of the advection. A front keeps its shape to first order in it, and substeps cost next to nothing
-/// compared with a solve.
+/// Courant number of a substep of the advection. A front keeps its shape to first order in it, and substeps cost next to
+/// nothing compared with a solve.
 const SUBSTEP_CFL: f64 = 0.25;
 
 /// Volume, cells, that counts as none: the residue of rounding behind a front. A larger one would ignore liquid.
@@ -31,10 +32,10 @@ pub(crate) struct Moved {
     pub(crate) lost: [f64; 2],
 }
 
-/// Advects the liquid `volumes` (at zero pressure) and their `water` (may be empty) by the face velocities over `dt`, into pores
-/// that can hold `capacities`. The flux out of a `full` pore is u a dt. Out of a partly filled one it has the fraction of the
-/// donor, or, where the surface lies across the flow, that of the acceptor until the donor's air is used up (Hirt & Nichols
-/// 1981, 10.1016/0021-9991(81)90145-5). No pore passes on more than it holds.
+/// Advects the liquid `volumes` (at zero pressure) and their `water` (may be empty) by the face velocities over `dt`, into
+/// pores that can hold `capacities`. The flux out of a `full` pore is u a dt. Out of a partly filled one it has the fraction
+/// of the donor, or, where the surface lies across the flow, that of the acceptor until the donor's air is used up (Hirt &
+/// Nichols 1981, 10.1016/0021-9991(81)90145-5). No pore passes on more than it holds.
 pub(crate) fn transport(
     mesh: &Mesh,
     [volumes, water]: [&[f64]; 2],

@@ -103,8 +103,8 @@ impl Implicit {
         Fronts::new(geometry, (unknowns, torn), around, wetting, before)
     }
 
-    /// Updates which pores are `torn`, that is, have liquid under more tension than it bears (docs/methods.md section 3.10). Returns
-    /// whether any changed.
+    /// Updates which pores are `torn`, that is, have liquid under more tension than it bears (docs/methods.md section 3.10).
+    /// Returns whether any changed.
     pub(super) fn tear(
         &self,
         unknowns: &Unknowns,

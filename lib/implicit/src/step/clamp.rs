@@ -1,5 +1,5 @@
-//! The clamp in a step: its speed under a pressure limit, and the step length that ends its travel (docs/methods.md sections 3.1
-//! and 3.7).
+//! The clamp in a step: its speed under a pressure limit, and the step length that ends its travel (docs/methods.md sections
+//! 3.1 and 3.7).
 
 use physics::StepLimit;
 
@@ -13,8 +13,8 @@ use crate::system::{Drive, Flow, REST_DISTANCE};
 /// Share of the remaining travel from which on a step is fitted to end the travel. A smaller one lengthens steps too much; a
 /// larger one leaves a last step that hardly moves.
 const FIT_FROM: f64 = 0.7;
-/// Bound on the solves that fit a step to the end of the travel, and that find the speed of a clamp under a pressure limit: both
-/// converge in one or two, or not at all.
+/// Bound on the solves that fit a step to the end of the travel, and that find the speed of a clamp under a pressure limit:
+/// both converge in one or two, or not at all.
 const MAX_SOLVES: usize = 4;
 
 /// Length of the step that covers the travel `left`. The clamp's speed is taken as linear in the length, through the last solve
@@ -37,8 +37,8 @@ fn height_differs(assumed: f64, height: f64) -> bool {
 }
 
 impl Implicit {
-    /// Solves the flow of a step of `dt` (s), or of another length up to `longest` if the step ends the clamp's travel. `start` is the
-    /// flow from which a solve starts; it is replaced by the result.
+    /// Solves the flow of a step of `dt` (s), or of another length up to `longest` if the step ends the clamp's travel.
+    /// `start` is the flow from which a solve starts; it is replaced by the result.
     pub(super) fn solve(
         &mut self,
         dt: f64,
@@ -105,8 +105,8 @@ impl Implicit {
             if !overfills && !is_off && height >= (1.0 - MISSED) * assumed {
                 return Ok(solved);
             }
-            // A faster clamp may fill pores that were not full before. A slower one keeps the pores that were full, or the iteration
-            // would oscillate.
+            // A faster clamp may fill pores that were not full before. A slower one keeps the pores that were full, or the
+            // iteration would oscillate.
             let other = self.middle(dt, Some(&solved.flow), &middle.full);
             let accepted = match height < assumed {
                 _ if overfills => false,
@@ -145,8 +145,8 @@ impl Implicit {
         }
     }
 
-    /// Solves the flow with a given pressure on the clamp. If the clamp cannot move at the speed found, solves at the nearest speed
-    /// that it can.
+    /// Solves the flow with a given pressure on the clamp. If the clamp cannot move at the speed found, solves at the
+    /// nearest speed that it can.
     fn solve_at_limit(
         &mut self,
         middle: &MidStep,

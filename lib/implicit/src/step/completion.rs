@@ -12,8 +12,8 @@ use crate::liquid::{Moved, TRACE, transport};
 use crate::settings::LARGEST_CFL;
 use crate::system::Flow;
 
-/// Bound on the extrapolated growth of the flow speed from step to step. Without extrapolation every step of an accelerating flow
-/// would be repeated; the growth of a flow that starts is no trend.
+/// Bound on the extrapolated growth of the flow speed from step to step. Without extrapolation every step of an accelerating
+/// flow would be repeated; the growth of a flow that starts is no trend.
 const MAX_FORESEEN_GROWTH: f64 = 1.25;
 /// Fraction of the faces, the fastest ones, that the Courant number ignores. A larger one misplaces liquid; with none, jets
 /// through holes of one voxel would set the step length.
@@ -81,8 +81,8 @@ impl Implicit {
         report
     }
 
-    /// Closes the gap by `travel` (cells), moves the water of `exchange`, and advects the liquid by the face `velocity` over a step of
-    /// `dt` (s). `full` says which pores were full.
+    /// Closes the gap by `travel` (cells), moves the water of `exchange`, and advects the liquid by the face `velocity` over
+    /// a step of `dt` (s). `full` says which pores were full.
     fn move_liquid(
         &mut self,
         travel: f64,

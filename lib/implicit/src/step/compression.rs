@@ -16,8 +16,8 @@ pub(super) struct Compression<'a> {
     pub(super) pressure: &'a [f64],
     /// Which pores are full at the start.
     pub(super) full: &'a [bool],
-    /// Heights of the gap at the start and at the end of the step. Compression refers to volumes at the end: the film in a closing
-    /// gap is squeezed out before it is compressed.
+    /// Heights of the gap at the start and at the end of the step. Compression refers to volumes at the end: the film in a
+    /// closing gap is squeezed out before it is compressed.
     pub(super) heights: [f64; 2],
     /// Length of the step, and the time in which the last flow crosses a cell, s.
     pub(super) times: [f64; 2],
@@ -40,9 +40,9 @@ impl Compression<'_> {
         self.heights.map(|height| self.mesh.volume_at(pore, height))
     }
 
-    /// Known source of the volume balance of `pores`, volume over time: the compression at the start less the constant term of the
-    /// law linearised about the pressures `around`, over dt; plus the volume that the pressure at the start does not explain. The
-    /// latter leaves within the time in which the last flow crosses a cell, not faster in shorter steps.
+    /// Known source of the volume balance of `pores`, volume over time: the compression at the start less the constant term
+    /// of the law linearised about the pressures `around`, over dt; plus the volume that the pressure at the start does not
+    /// explain. The latter leaves within the time in which the last flow crosses a cell, not faster in shorter steps.
     pub(super) fn release_rates(&self, pores: &[u32], around: &[f64]) -> Vec<f64> {
         let [dt, crossing] = self.times;
         let released = |&pore: &u32| {

@@ -108,7 +108,8 @@ impl ClampDrive {
         self.programme.as_ref().is_some_and(PressRun::is_closed)
     }
 
-    /// Retreat speed of the clamp, m/s, in a stage that begins below the pressure reached, so that the clamp may retreat at once.
+    /// Retreat speed of the clamp, m/s, in a stage that begins below the pressure reached, so that the clamp may retreat at
+    /// once.
     pub(super) fn retreat_speed(&self) -> Option<f64> {
         let programme = self.programme.as_ref().filter(|run| run.gives_way());
         programme.map(|run| run.stage().speed)
@@ -120,8 +121,8 @@ impl ClampDrive {
         programme.map_or(limit, |programme| programme.within(limit, travel))
     }
 
-    /// Sets the pressure limit to that of the programme `ahead` (s) of now. Under an active limit the estimated speed changes in
-    /// proportion, as that of viscous flow does.
+    /// Sets the pressure limit to that of the programme `ahead` (s) of now. Under an active limit the estimated speed
+    /// changes in proportion, as that of viscous flow does.
     pub(super) fn set_limit_ahead(&mut self, ahead: f64) {
         let (Some(programme), Control::Limit(control)) = (&self.programme, &mut self.control)
         else {
@@ -157,9 +158,9 @@ impl ClampDrive {
         Some(*control)
     }
 
-    /// Sets the speed to the nearest that the clamp can have to `speed` (m/s), that of the limit; returns whether they are equal. Its
-    /// bounds are the full speed, at which the limit becomes inactive, and zero without a programme: compressed liquid does not
-    /// open the clamp.
+    /// Sets the speed to the nearest that the clamp can have to `speed` (m/s), that of the limit; returns whether they are
+    /// equal. Its bounds are the full speed, at which the limit becomes inactive, and zero without a programme: compressed
+    /// liquid does not open the clamp.
     pub(super) fn accept_speed(&mut self, speed: f64) -> bool {
         let Control::Limit(control) = &mut self.control else {
             return true;
@@ -170,7 +171,8 @@ impl ClampDrive {
         self.speed == speed
     }
 
-    /// Updates the control by the `pressure` (Pa) of a completed step of `dt` (s), after which the clamp has travelled `travel` (m).
+    /// Updates the control by the `pressure` (Pa) of a completed step of `dt` (s), after which the clamp has travelled
+    /// `travel` (m).
     pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
         let bounds = match &self.control {
             // A release has no limit to exceed: expanding air keeps pressing on a retreating body.

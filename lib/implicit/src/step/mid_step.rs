@@ -8,8 +8,8 @@ use crate::clock::Stage;
 use crate::liquid::transport;
 use crate::system::{FULL, Flow, halves, masses};
 
-/// Accepted excess over the free volume of voids, as a share of all flow into voids. Steps in wood with many lumens stay below it
-/// and are solved once; results hardly depend on it up to 0.1.
+/// Accepted excess over the free volume of voids, as a share of all flow into voids. Steps in wood with many lumens stay
+/// below it and are solved once; results hardly depend on it up to 0.1.
 const MAX_OVERFILL: f64 = 0.03;
 
 /// State in the middle of a step, shared by all solves from it.
@@ -41,8 +41,9 @@ impl MidStep {
 }
 
 impl Implicit {
-    /// Moves the rows and the liquid to the middle of a step of `dt` (s): by `flow`, or by the last step's flow and the drive's speed.
-    /// Voids that `flow` would fill count as full, as do pores that were full `before`, in an earlier estimate of the middle.
+    /// Moves the rows and the liquid to the middle of a step of `dt` (s): by `flow`, or by the last step's flow and the
+    /// drive's speed. Voids that `flow` would fill count as full, as do pores that were full `before`, in an earlier
+    /// estimate of the middle.
     pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> MidStep {
         let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
@@ -95,10 +96,10 @@ impl Implicit {
         Ok(())
     }
 
-    /// Marks as `full` the pores of each void (connected pores that are not full) that `flow`, found for a step of `dt` (s), would
-    /// overfill. Their volume balance then admits no more than their free volume at the gap's height `end`; the excess would have
-    /// to leave in later steps, under a spurious pressure. Returns the excess over all flow into voids. `flow` must be that of this
-    /// step: a void marked full by another flow might have to be filled by suction.
+    /// Marks as `full` the pores of each void (connected pores that are not full) that `flow`, found for a step of `dt` (s),
+    /// would overfill. Their volume balance then admits no more than their free volume at the gap's height `end`; the excess
+    /// would have to leave in later steps, under a spurious pressure. Returns the excess over all flow into voids. `flow`
+    /// must be that of this step: a void marked full by another flow might have to be filled by suction.
     fn fill_voids(&self, dt: f64, end: f64, full: &mut [bool], flow: &Flow) -> f64 {
         // With air, voids are pockets with a pressure and do not overfill.
         if self.setup.gas.is_some() {
@@ -134,8 +135,8 @@ impl Implicit {
         excess / all
     }
 
-    /// Volume fractions in the middle of a step of `dt` (s), by `flow` or that of the last step. `full` says which pores are full at
-    /// the start.
+    /// Volume fractions in the middle of a step of `dt` (s), by `flow` or that of the last step. `full` says which pores are
+    /// full at the start.
     fn mid_fractions(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
         let begun = Instant::now();
         let (state, mesh) = (&self.state, &self.mesh);

@@ -35,8 +35,8 @@ use water::WaterBalance;
 const ATTEMPTS: usize = 8;
 /// Factor by which a step may exceed the Courant number, so that few steps are solved twice.
 const CFL_EXCESS: f64 = 1.1;
-/// Largest change of ln(viscosity) in a step by cure, and the target by loss of water: 1/viscosity in the middle of the step then
-/// differs from its mean by 0.17 %.
+/// Largest change of ln(viscosity) in a step by cure, and the target by loss of water: 1/viscosity in the middle of the step
+/// then differs from its mean by 0.17 %.
 pub(crate) const LN_VISCOSITY_STEP: f64 = 0.2;
 /// Largest ratio of successive step lengths with menisci. A pinned meniscus breaks loose from rest, where no speed bounds the
 /// step, and steps that grow at once do not settle to rest (docs/decisions/menisci.md).

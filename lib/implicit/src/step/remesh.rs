@@ -9,8 +9,8 @@ use crate::settings::LARGEST_CFL;
 use crate::system::{Edges, WallCouplings};
 use crate::water::Walls;
 
-/// Active cells around the liquid at remeshing: twice the distance that liquid covers in a step. The mesh is built anew where fewer
-/// than half of them are left.
+/// Active cells around the liquid at remeshing: twice the distance that liquid covers in a step. The mesh is built anew
+/// where fewer than half of them are left.
 pub(super) const MARGIN: usize = 2 * (LARGEST_CFL as usize + 1);
 
 impl Implicit {

@@ -111,8 +111,8 @@ impl Implicit {
         })
     }
 
-    /// The fixed-point iteration for the viscosity field of a step, from that of the flow `start`. `viscosity` is that of a Newtonian
-    /// liquid over the unit, which is its factor by cure.
+    /// The fixed-point iteration for the viscosity field of a step, from that of the flow `start`. `viscosity` is that of a
+    /// Newtonian liquid over the unit, which is its factor by cure.
     fn viscosity_iteration(&self, viscosity: f64, start: &Flow) -> ViscosityIteration<'_> {
         let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length);
         let factor = viscosity / self.setup.units.viscosity;
@@ -137,8 +137,8 @@ impl Implicit {
         }
     }
 
-    /// Solves once with given viscosities, from the flow `start`. Returns the flow, the forces on the bodies, and whether compression
-    /// obeys its law.
+    /// Solves once with given viscosities, from the flow `start`. Returns the flow, the forces on the bodies, and whether
+    /// compression obeys its law.
     fn solve_once(
         &self,
         (middle, drive): (&MidStep, Drive),

@@ -243,8 +243,8 @@ impl Problem<'_> {
         stiffness * sum
     }
 
-    /// Correction from the power u A u to viscous dissipation, for face velocities `u`: adds the power of sliding walls, subtracts
-    /// that of inertia.
+    /// Correction from the power u A u to viscous dissipation, for face velocities `u`: adds the power of sliding walls,
+    /// subtracts that of inertia.
     pub(crate) fn viscous_parts(&self, u: &[f64], speed: f64) -> f64 {
         let part = |(&face, u): (&u32, &f64)| {
             let face = face as usize;
@@ -266,7 +266,8 @@ impl Problem<'_> {
         self.unknowns.faces.iter().zip(u).map(part).sum()
     }
 
-    /// The divergence block G: outflow of each pore with a pressure per face velocity, then that of each pocket through its front.
+    /// The divergence block G: outflow of each pore with a pressure per face velocity, then that of each pocket through its
+    /// front.
     pub(crate) fn outflow(&self) -> Result<Csr<f64>, SolveError> {
         let (pores, faces) = (&self.unknowns.pores, &self.unknowns.faces);
         let rows = pores.len() + self.pockets.len();

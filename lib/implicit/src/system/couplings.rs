@@ -229,18 +229,18 @@ impl Channels<'_> {
         (place.map_or(f64::INFINITY, length) / k).max(0.25)
     }
 
-    /// Effective distance d_w of a column from its walls, which makes the flux of plane Poiseuille flow exact for every open height h1
-    /// of the column in a channel of width H.
+    /// Effective distance d_w of a column from its walls, which makes the flux of plane Poiseuille flow exact for every open
+    /// height h1 of the column in a channel of width H.
     ///
-    /// Derivation. The velocity is the mean over a column of height h1 at the wall. Between plates the profile is
-    /// u = g (x - x^2/H) with the slope g at the wall; its mean there is g (h1/2 - h1^2/(3 H)). Differences of means over equal
-    /// heights are exact, but that between the column at the wall and the next is short by e = g (h1^2 - 1)/(3 H). Spreading
-    /// this defect over the half channel,
+    /// Derivation. The velocity is the mean over a column of height h1 at the wall. Between plates the profile is u = g (x -
+    /// x^2/H) with the slope g at the wall; its mean there is g (h1/2 - h1^2/(3 H)). Differences of means over equal heights
+    /// are exact, but that between the column at the wall and the next is short by e = g (h1^2 - 1)/(3 H). Spreading this
+    /// defect over the half channel,
     ///
     /// d = h1/2 - h1^2/(3 H) + (1 - 2 h1/H) (h1^2 - 1)/(3 H).
     ///
-    /// A column between two walls has the mean g H/6, so that d = H/6. Beside steps flow is not that between plates, and the defect is
-    /// reduced by the factor 1 - `step_proximity`.
+    /// A column between two walls has the mean g H/6, so that d = H/6. Beside steps flow is not that between plates, and the
+    /// defect is reduced by the factor 1 - `step_proximity`.
     fn distance(&self, column: &Column, between: bool, step_proximity: f64) -> f64 {
         let h1 = column.height;
         let [along, across] = column.widths;

@@ -56,8 +56,8 @@ impl Edge {
         3 - usize::from(mesh.faces[face].axis) - usize::from(self.t)
     }
 
-    /// Sheared area over the distance between the two faces, cells, and the length of the edge, cells, negative if the next face
-    /// lies on the low side.
+    /// Sheared area over the distance between the two faces, cells, and the length of the edge, cells, negative if the next
+    /// face lies on the low side.
     pub(crate) fn geometry(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
         let f = mesh.faces[face];
         let (axis, along) = (usize::from(f.axis), self.axis(mesh, face));
@@ -159,8 +159,8 @@ impl Edges {
         self.start[face] as usize
     }
 
-    /// Square of the shear rate at each edge by the face velocities `u`: that of its own shear, and the mean of all other parts in
-    /// the four pores around it. `parts` are the squares in each pore: stretching, and shear about x, y, z.
+    /// Square of the shear rate at each edge by the face velocities `u`: that of its own shear, and the mean of all other
+    /// parts in the four pores around it. `parts` are the squares in each pore: stretching, and shear about x, y, z.
     pub(crate) fn rates(&self, mesh: &Mesh, u: &[f64], parts: &[[f64; 4]]) -> Vec<f64> {
         let rates = |face: usize| {
             self.of(face).iter().map(move |edge| {

@@ -15,8 +15,8 @@ pub(super) struct Equations {
     two_eta: Vec<f64>,
     /// `D_B` of each face (docs/methods.md section 3.6).
     friction: Vec<f64>,
-    /// Momentum right-hand sides: all of them, those per closing speed, the static ones, and those that only make liquid follow its
-    /// walls.
+    /// Momentum right-hand sides: all of them, those per closing speed, the static ones, and those that only make liquid
+    /// follow its walls.
     known: Vec<f64>,
     pub(super) closing: Vec<f64>,
     standing: Vec<f64>,
@@ -30,8 +30,8 @@ pub(super) struct Equations {
 }
 
 impl Equations {
-    /// The system of a problem with the moving body driven by `drive`. `excess_rate` is the excess of the liquid in each pore with a
-    /// pressure over the pore's volume, per time.
+    /// The system of a problem with the moving body driven by `drive`. `excess_rate` is the excess of the liquid in each
+    /// pore with a pressure over the pore's volume, per time.
     pub(super) fn new(
         problem: &Problem,
         excess_rate: &[f64],
@@ -91,8 +91,8 @@ impl Equations {
         Ok(equations)
     }
 
-    /// Adds pockets of air. The unknown of a pocket is its pressure less that of its tangent, which the fronts already apply: with
-    /// the full pressure as the unknown, the terms of a soft pocket would outweigh all others.
+    /// Adds pockets of air. The unknown of a pocket is its pressure less that of its tangent, which the fronts already
+    /// apply: with the full pressure as the unknown, the terms of a soft pocket would outweigh all others.
     fn add_pockets(&mut self, problem: &Problem) {
         let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
         let dt = problem.scales.dt;

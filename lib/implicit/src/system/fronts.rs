@@ -8,8 +8,9 @@ use super::assembly::Problem;
 use super::unknowns::Unknowns;
 use crate::geometry::{Chords, Lattice, Mesh, Neighbour, perimeter_over_area};
 
-/// Displacement in a step that counts as rest, cells: far less than a step moves, far more than the error of a solution. It makes
-/// v_0 = REST_DISTANCE/dt of docs/methods.md section 3.12: a meniscus that moves by it feels half of the contact-line friction.
+/// Displacement in a step that counts as rest, cells: far less than a step moves, far more than the error of a solution. It
+/// makes v_0 = REST_DISTANCE/dt of docs/methods.md section 3.12: a meniscus that moves by it feels half of the contact-line
+/// friction.
 pub(crate) const REST_DISTANCE: f64 = 0.01;
 
 /// Wetting of the walls, in the units of a step.
@@ -39,9 +40,9 @@ impl Wetting {
         self.dynamic_coefficient.min(most)
     }
 
-    /// Dry friction of a contact line per area and speed: F/(|u'| + v_0) with u' the `speed` of the last step. Friction depends on the
-    /// displacement, not the time: in a longer step u' is scaled to the displacement of the last one, or fronts that come to rest
-    /// would creep on as steps grow.
+    /// Dry friction of a contact line per area and speed: F/(|u'| + v_0) with u' the `speed` of the last step. Friction
+    /// depends on the displacement, not the time: in a longer step u' is scaled to the displacement of the last one, or
+    /// fronts that come to rest would creep on as steps grow.
     fn contact_friction(&self, hysteresis: f64, speed: f64) -> f64 {
         let held = self.tension * self.cosine.abs() * hysteresis;
         held / (self.step_ratio * speed.abs() + REST_DISTANCE / self.dt)
@@ -60,9 +61,9 @@ pub(crate) struct Fronts {
 }
 
 impl Fronts {
-    /// The boundary conditions for pores with the pressures `around` of their gas or torn liquid. A meniscus stands in each pore that
-    /// is neither full nor `torn` and borders on a full one; its capillary pressure is tension times cosine times perimeter over
-    /// area of the throat. `velocity` is that of the faces before the step.
+    /// The boundary conditions for pores with the pressures `around` of their gas or torn liquid. A meniscus stands in each
+    /// pore that is neither full nor `torn` and borders on a full one; its capillary pressure is tension times cosine times
+    /// perimeter over area of the throat. `velocity` is that of the faces before the step.
     pub(crate) fn new(
         (lattice, chords, mesh): (&Lattice, &Chords, &Mesh),
         (unknowns, torn): (&Unknowns, &[bool]),
@@ -166,8 +167,8 @@ impl FrontView<'_> {
         perimeter_over_area * self.wetting.dynamic_loss(into.sum::<f64>() / section) / section
     }
 
-    /// Delta/2 of docs/methods.md section 3.12: half of the fall of perimeter over area for a meniscus that moves from `wet` into
-    /// `dry` along an axis, to the pores ahead and to empty ones along the front.
+    /// Delta/2 of docs/methods.md section 3.12: half of the fall of perimeter over area for a meniscus that moves from `wet`
+    /// into `dry` along an axis, to the pores ahead and to empty ones along the front.
     fn hysteresis(&self, axis: usize, up: bool, wet: usize, dry: usize) -> f64 {
         let here = self.perimeter_over_area[dry];
         let (mut behind, mut ahead) = (
@@ -219,8 +220,9 @@ fn wet_faces<'a>(
 }
 
 impl Problem<'_> {
-    /// Adds the loss of capillary pressure by the dynamic angle to the equation of a face. The speed of a meniscus is the inflow into
-    /// its pore through all faces: friction at each face alone would let a stepped front, which has more faces, pass faster.
+    /// Adds the loss of capillary pressure by the dynamic angle to the equation of a face. The speed of a meniscus is the
+    /// inflow into its pore through all faces: friction at each face alone would let a stepped front, which has more faces,
+    /// pass faster.
     pub(super) fn add_dynamic_angle(&self, face: usize, entries: &mut RowEntries) {
         let ends = self.ends(face);
         for (dry, wet, sign) in [(ends[0], ends[1], -1.0), (ends[1], ends[0], 1.0)] {

@@ -5,12 +5,14 @@ use rayon::prelude::*;
 use super::FlowField;
 use crate::geometry::{Lattice, others};
 
-/// Velocity profiles of a flow within pores. A component is linear along its own axis from face to face. Across it, in cells of two
-/// voxels, it has the slope in the middle of a parabola whose slopes at the two sides of the face are the shear rates there.
+/// Velocity profiles of a flow within pores. A component is linear along its own axis from face to face. Across it, in cells
+/// of two voxels, it has the slope in the middle of a parabola whose slopes at the two sides of the face are the shear rates
+/// there.
 pub(crate) struct Profile<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) flow: FlowField<'a>,
-    /// Gradients of the velocity of each face along its two tangential axes, the lower first, 1/s; empty for cells of one voxel.
+    /// Gradients of the velocity of each face along its two tangential axes, the lower first, 1/s; empty for cells of one
+    /// voxel.
     slopes: Vec<[f64; 2]>,
 }
 
@@ -81,8 +83,8 @@ impl<'a> Profile<'a> {
         side
     }
 
-    /// End of a voxel's column along an axis: its position, voxels from the low side of the cell, and the velocity relative to the grid
-    /// there, 0 at a wall within the cell, else that of the `side` of the pore.
+    /// End of a voxel's column along an axis: its position, voxels from the low side of the cell, and the velocity relative
+    /// to the grid there, 0 at a wall within the cell, else that of the `side` of the pore.
     fn column_end(
         &self,
         pore: usize,
@@ -141,8 +143,8 @@ impl FlowField<'_> {
         self.velocity[face] != 0.0
     }
 
-    /// Gradients of the velocity of a face along its two tangential axes: means of the shear rates at its two sides. Where a side has
-    /// no next face this is the wall shear rate, and zero where the liquid ends.
+    /// Gradients of the velocity of a face along its two tangential axes: means of the shear rates at its two sides. Where a
+    /// side has no next face this is the wall shear rate, and zero where the liquid ends.
     fn slopes(&self, face: usize) -> [f64; 2] {
         if !self.moves(face) {
             return [0.0; 2];

@@ -15,8 +15,8 @@ use crate::geometry::{MIRROR, OPEN};
 pub(crate) enum Drive {
     /// At a prescribed speed, cells/s.
     Speed(f64),
-    /// By a force over the unit of viscosity, at an unknown speed that is estimated as `start_speed`; `scale` is that of errors in
-    /// the force.
+    /// By a force over the unit of viscosity, at an unknown speed that is estimated as `start_speed`; `scale` is that of
+    /// errors in the force.
     Force {
         force: f64,
         scale: f64,
@@ -65,8 +65,8 @@ impl Flow {
     }
 }
 
-/// Solves a problem from the flow `start`. `excess_rate` is the excess of the liquid in each pore with a pressure over the pore's
-/// volume, per time.
+/// Solves a problem from the flow `start`. `excess_rate` is the excess of the liquid in each pore with a pressure over the
+/// pore's volume, per time.
 pub(crate) fn solve(
     problem: &Problem,
     excess_rate: &[f64],

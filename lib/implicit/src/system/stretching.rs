@@ -2,8 +2,8 @@
 
 use crate::geometry::{Mesh, RowKind};
 
-/// A term of the stretching of a pore: the weight of the difference between the velocities of a face and of the opposite face or
-/// wall.
+/// A term of the stretching of a pore: the weight of the difference between the velocities of a face and of the opposite
+/// face or wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StretchTerm {
     /// The opposite face; `None` for a wall.

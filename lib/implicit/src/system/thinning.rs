@@ -7,13 +7,14 @@ const MAX_WIDTH: f64 = 60.0;
 /// Lower bound on the distance over that of a Newtonian liquid, which keeps friction finite beside low rows.
 const MIN_RATIO: f64 = 0.02;
 
-/// Effective distance of a face from its wall, cells, for a liquid whose rate goes with the power `p` of its stress. `distance` is
-/// that of a Newtonian liquid, `width` the width H of the slit, `first` the distance h1 of the first edge from the wall, cells.
+/// Effective distance of a face from its wall, cells, for a liquid whose rate goes with the power `p` of its stress.
+/// `distance` is that of a Newtonian liquid, `width` the width H of the slit, `first` the distance h1 of the first edge from
+/// the wall, cells.
 ///
-/// Derivation. In a slit the stress falls linearly from the wall to the middle, and the rate is (1 - 2 y/H)^p of
-/// the wall's. Faces differ by the rate at the edge between them, at y = h1, h1 + 1, ... < H/2, times
-/// their distance, w = (h1 + 1)/2 at the first edge and 1 at others; the flux that follows is that of the profile,
-/// the wall's rate times (H/2)^2/(p + 2) on each side, if
+/// Derivation. In a slit the stress falls linearly from the wall to the middle, and the rate is (1 - 2 y/H)^p of the wall's.
+/// Faces differ by the rate at the edge between them, at y = h1, h1 + 1, ... < H/2, times their distance, w = (h1 + 1)/2 at
+/// the first edge and 1 at others; the flux that follows is that of the profile, the wall's rate times (H/2)^2/(p + 2) on
+/// each side, if
 ///
 /// d(p) = H/(2 (p + 2)) - sum over edges of w (1 - 2 y/H)^(p + 1),
 ///

@@ -5,13 +5,14 @@ use std::num::NonZeroU32;
 use crate::geometry::Mesh;
 use crate::liquid::TRACE;
 
-/// Volume fraction from which on a pore counts as full: it has an unknown pressure, and fills up within the step. With 0.8 the force
-/// of a piston in a slit of three cells scatters by 4.0 % instead of 1.6 %; with 0.98 the pressure added by a front's shape in a
-/// duct of six cells is off by that of 0.035 widths of flow instead of 0.017.
+/// Volume fraction from which on a pore counts as full: it has an unknown pressure, and fills up within the step. With 0.8
+/// the force of a piston in a slit of three cells scatters by 4.0 % instead of 1.6 %; with 0.98 the pressure added by a
+/// front's shape in a duct of six cells is off by that of 0.035 widths of flow instead of 0.017.
 pub(crate) const FULL: f64 = 0.9;
 
-/// Numbering of the unknowns of a step. Velocities are numbered along rows of cells, one component after the other: neighbours are
-/// close in memory, and consecutive rows of the velocity block have the same column offsets, which the solver packs.
+/// Numbering of the unknowns of a step. Velocities are numbered along rows of cells, one component after the other:
+/// neighbours are close in memory, and consecutive rows of the velocity block have the same column offsets, which the solver
+/// packs.
 pub(crate) struct Unknowns {
     /// Faces with an unknown velocity.
     pub(crate) faces: Vec<u32>,

@@ -33,8 +33,8 @@ impl Viscosities {
         own.unwrap_or_else(|| ends.map(|pore| self.pores[pore]))
     }
 
-    /// Viscosities at the `rates` of a flow: `factor` times the law of the liquid (Pa s). At walls both the rate and the viscosity are
-    /// multiplied by the thinning factor; `slip` is the influence length, cells.
+    /// Viscosities at the `rates` of a flow: `factor` times the law of the liquid (Pa s). At walls both the rate and the
+    /// viscosity are multiplied by the thinning factor; `slip` is the influence length, cells.
     pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
         let law = &liquid.viscosity;
         let at = |rate: f64| factor * law.at(rate);
@@ -83,7 +83,8 @@ pub(crate) struct WallShear {
 }
 
 impl WallShear {
-    /// Ratio of the wall distances of a Newtonian liquid and of one with this `law`, a factor on both the rate and the viscosity.
+    /// Ratio of the wall distances of a Newtonian liquid and of one with this `law`, a factor on both the rate and the
+    /// viscosity.
     pub(super) fn thinning_factor(&self, law: &Viscosity, slip: f64) -> f64 {
         if self.rate <= 0.0 {
             return 1.0;

@@ -1,5 +1,5 @@
-//! Fixed-point iteration on the viscosity field of a liquid whose viscosity depends on the shear rate, accelerated by the response
-//! of the rates to the last change of the viscosity (docs/methods.md section 3.8).
+//! Fixed-point iteration on the viscosity field of a liquid whose viscosity depends on the shear rate, accelerated by the
+//! response of the rates to the last change of the viscosity (docs/methods.md section 3.8).
 
 use physics::Liquid;
 use rayon::prelude::*;
@@ -12,7 +12,8 @@ pub(crate) const PASSES: usize = 30;
 /// Largest |ln| of the factor by which a rate is extrapolated, and the tolerance to which it is solved.
 const MAX_EXPONENT: f64 = 30.0;
 const EXPONENT_TOLERANCE: f64 = 0.05 * SETTLED;
-/// Mean change of ln(viscosity), weighted by dissipation, at which the iteration ends. A smaller one says nothing of the response.
+/// Mean change of ln(viscosity), weighted by dissipation, at which the iteration ends. A smaller one says nothing of the
+/// response.
 const SETTLED: f64 = 2e-3;
 
 /// The iteration on the viscosity field of a step.
@@ -42,8 +43,8 @@ impl<'a> ViscosityIteration<'a> {
         }
     }
 
-    /// Updates the viscosities by the `rates` and the dissipation (`power`) of each pore of the flow that was solved with them. Returns
-    /// whether the iteration has converged.
+    /// Updates the viscosities by the `rates` and the dissipation (`power`) of each pore of the flow that was solved with
+    /// them. Returns whether the iteration has converged.
     pub(crate) fn update(&mut self, rates: Rates, power: Vec<f64>) -> bool {
         let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
@@ -83,9 +84,9 @@ impl Evaluation {
         }
     }
 
-    /// Response d ln(rate)/d ln(viscosity) from the solve `before` to this one, weighted by dissipation: -1 where the stress is given,
-    /// 0 where the speed is. Parts of a flow differ, and one solve shows those that it changed most, so the result is the mean of
-    /// the new estimate and the `last` one.
+    /// Response d ln(rate)/d ln(viscosity) from the solve `before` to this one, weighted by dissipation: -1 where the stress
+    /// is given, 0 where the speed is. Parts of a flow differ, and one solve shows those that it changed most, so the result
+    /// is the mean of the new estimate and the `last` one.
     fn response(&self, before: &Self, last: f64) -> f64 {
         let (mut answer, mut cause, mut weight) = (0.0, 0.0, 0.0);
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
@@ -104,9 +105,9 @@ impl Evaluation {
         }
     }
 
-    /// Extrapolated viscosities: those of the law of `liquid`, times `factor`, at rates that change with the power `response` of the
-    /// viscosity. Exact in a channel under a given pressure drop, where plain fixed-point iteration (a response of 0) converges
-    /// slowly, and hardly at all for a yielding liquid.
+    /// Extrapolated viscosities: those of the law of `liquid`, times `factor`, at rates that change with the power
+    /// `response` of the viscosity. Exact in a channel under a given pressure drop, where plain fixed-point iteration (a
+    /// response of 0) converges slowly, and hardly at all for a yielding liquid.
     fn extrapolated(&self, liquid: &Liquid, factor: f64, slip: f64, response: f64) -> Viscosities {
         let law = &liquid.viscosity;
         let of = |rate: f64, used: f64| {
