@@ -163,13 +163,13 @@ impl Through {
             .map_err(|e| e.to_string())?;
         let faces = || unknowns.faces.iter().map(|&face| face as usize);
         // The mean pressure falls by a unit a cell and drives the flow; the unknown p is the deviation from it.
-        let push = |face: usize| match usize::from(mesh.faces[face].axis) == self.axis {
+        let driving = |face: usize| match usize::from(mesh.faces[face].axis) == self.axis {
             true => mesh.area(face),
             false => 0.0,
         };
-        let push: Vec<f64> = faces().map(push).collect();
+        let driving: Vec<f64> = faces().map(driving).collect();
         let friction: Vec<f64> = faces().map(|face| resistance(&problem, face)).collect();
-        let (mut u, mut p) = (vec![0.0; push.len()], vec![0.0; unknowns.pores.len()]);
+        let (mut u, mut p) = (vec![0.0; driving.len()], vec![0.0; unknowns.pores.len()]);
         let none = vec![0.0; p.len()];
         let system = SaddleSystem {
             a: &a,
@@ -179,7 +179,7 @@ impl Through {
             c: &vec![TOLERANCE * TOLERANCE; p.len()],
             friction: &friction,
             two_eta: &vec![2.0; p.len()],
-            b: &push,
+            b: &driving,
             standing: &[],
             clinging: &[],
             slow: 0.0,
@@ -192,7 +192,7 @@ impl Through {
         });
         let solved = solver.solve(&system, &mut u, &mut p);
         solved.map_err(|e| e.to_string())?;
-        Ok(push.iter().zip(&u).map(|(push, u)| push * u).sum())
+        Ok(driving.iter().zip(&u).map(|(driving, u)| driving * u).sum())
     }
 }
 

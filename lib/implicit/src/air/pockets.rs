@@ -49,8 +49,8 @@ impl Air {
         air.release_covered(mesh, &full, void);
         let reaches_out = |pore: usize| {
             let row = mesh.row_of(pore);
-            let last = row == 0 || row + 1 == mesh.rows().len();
-            mesh.is_ghost(mesh.cell(pore)) || along_y && last
+            let at_end = row == 0 || row + 1 == mesh.rows().len();
+            mesh.is_ghost(mesh.cell(pore)) || along_y && at_end
         };
         let mut found = vec![false; mesh.pores.len()];
         for first in 0..mesh.pores.len() {

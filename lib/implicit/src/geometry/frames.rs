@@ -51,8 +51,8 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
             };
             if beside && !(along && block.dims()[1] == 1) {
                 return Err(format!(
-                    "body '{}' stands beside the way of '{}' and is not alike along it: the implicit scheme takes walls \
-                     there that go on to the side of the domain",
+                    "body '{}' stands beside the path of '{}' and is not uniform along it: the implicit scheme takes \
+                     walls there that reach unchanged to the side of the domain",
                     body.name, scene.bodies[moving.body].name
                 ));
             }

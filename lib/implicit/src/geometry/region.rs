@@ -46,8 +46,8 @@ impl Region {
                 counts.clear();
                 counts.push(0_usize);
                 for i in 0..n + 2 * before {
-                    let held = region.cells[at((i + n - before) % n)];
-                    counts.push(counts[i] + usize::from(held));
+                    let is_member = region.cells[at((i + n - before) % n)];
+                    counts.push(counts[i] + usize::from(is_member));
                 }
                 for i in 0..n {
                     let low = (i + before).saturating_sub(by);
@@ -63,7 +63,7 @@ impl Region {
     pub(crate) fn inner(&self, periodic: [bool; 3]) -> Self {
         let complement = |region: &Self| Self {
             size: region.size,
-            cells: region.cells.iter().map(|held| !held).collect(),
+            cells: region.cells.iter().map(|is_member| !is_member).collect(),
         };
         complement(&complement(self).grown(1, periodic))
     }
@@ -72,7 +72,9 @@ impl Region {
     pub(crate) fn bits(&self) -> Vec<u32> {
         let word = |cells: &[bool]| {
             let bits = cells.iter().enumerate();
-            bits.fold(0, |word, (bit, &held)| word | u32::from(held) << bit)
+            bits.fold(0, |word, (bit, &is_member)| {
+                word | u32::from(is_member) << bit
+            })
         };
         self.cells.chunks(32).map(word).collect()
     }
@@ -81,8 +83,8 @@ impl Region {
     pub(crate) fn of_bits(size: [usize; 3], bits: &[u32]) -> Option<Self> {
         let mut region = Self::new(size, false);
         let fits = bits.len() == region.cells.len().div_ceil(32);
-        for (cell, held) in region.cells.iter_mut().enumerate() {
-            *held = fits && bits[cell / 32] >> (cell % 32) & 1 == 1;
+        for (cell, is_member) in region.cells.iter_mut().enumerate() {
+            *is_member = fits && bits[cell / 32] >> (cell % 32) & 1 == 1;
         }
         fits.then_some(region)
     }

@@ -125,18 +125,18 @@ impl ThroatView<'_> {
         let mut widest = lengths[axis];
         for beside in others(axis).into_iter().filter(|&b| lengths[b] < longest) {
             for up in [false, true] {
-                let (mut at, mut before) = (place, lengths[axis]);
+                let (mut at, mut previous) = (place, lengths[axis]);
                 let mut offset = 0.5 * self.thickness(at, beside);
                 while let Some(next) = self.next_place(at, beside, up) {
                     let length = self.chords.length(self.lattice, next, axis, self.gap);
-                    if length > MAX_WIDENING * before {
+                    if length > MAX_WIDENING * previous {
                         break;
                     }
                     if offset <= 0.5 * length {
                         widest = widest.max(length);
                     }
                     offset += self.thickness(next, beside);
-                    (at, before) = (next, length);
+                    (at, previous) = (next, length);
                 }
             }
         }

@@ -184,7 +184,7 @@ fn combined(
 /// The pores above and below a pore of a gap that has closed; if there are none, those of the nearest gap pores that have some.
 fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == RowKind::Gap;
-    let mut seen = HashSet::from([pore]);
+    let mut visited = HashSet::from([pore]);
     let mut front = vec![pore];
     while !front.is_empty() {
         let found: Vec<usize> = (front.iter())
@@ -198,7 +198,10 @@ fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
             .map(|neighbour| neighbour.pore)
             .filter(|&pore| in_gap(pore))
             .collect();
-        front = next.into_iter().filter(|&pore| seen.insert(pore)).collect();
+        front = next
+            .into_iter()
+            .filter(|&pore| visited.insert(pore))
+            .collect();
     }
     Vec::new()
 }

@@ -220,20 +220,22 @@ impl ClampDrive {
 
     /// The state for checkpoints.
     pub(super) fn state(&self) -> [f64; 7] {
-        let rest = match (&self.control, &self.programme) {
+        let control = match (&self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.state(),
             (Control::Limit(control), Some(_)) if control.limit.is_finite() => {
                 [control.limit, 0.0, 0.0]
             }
             _ => [0.0; 3],
         };
-        let held = f64::from(u8::from(self.active_load_control().is_some()));
+        let active = f64::from(u8::from(self.active_load_control().is_some()));
         let (steps, pressure) = (self.violations.0 as f64, self.violations.1);
-        [self.speed, held, steps, pressure, rest[0], rest[1], rest[2]]
+        [
+            self.speed, active, steps, pressure, control[0], control[1], control[2],
+        ]
     }
 
     /// Restores a saved state; that of the programme must have been restored before.
-    pub(super) fn set_state(&mut self, [speed, was_held, steps, pressure, a, b, c]: [f64; 7]) {
+    pub(super) fn set_state(&mut self, [speed, was_active, steps, pressure, a, b, c]: [f64; 7]) {
         (self.speed, self.violations) = (speed, (steps as u64, pressure));
         match (&mut self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.set_state([a, b, c]),
@@ -242,7 +244,7 @@ impl ClampDrive {
                     *control = LoadControl::of(programme);
                     control.limit = a;
                 }
-                control.active = was_held != 0.0;
+                control.active = was_active != 0.0;
             }
             (Control::Free, _) => {}
         }

@@ -50,12 +50,12 @@ impl WaterExchange {
                 false => flow - node.demand,
             };
             (found.gained[pore], found.taken[pore]) = (gained, flow - gained);
-            let [begin, end] = [node.ratio, ratio[n]].map(|ratio| water.factor(ratio));
-            found.factor[pore] = (begin * end).sqrt();
+            let [before, after] = [node.ratio, ratio[n]].map(|ratio| water.factor(ratio));
+            found.factor[pore] = (before * after).sqrt();
             moved += gained.abs();
-            changed += gained.abs() * (end / begin).ln().abs();
-            let held = node.solids * (1.0 + ratio[n]);
-            (fluid, volume) = (fluid + held / end, volume + held);
+            changed += gained.abs() * (after / before).ln().abs();
+            let amount = node.solids * (1.0 + ratio[n]);
+            (fluid, volume) = (fluid + amount / after, volume + amount);
         }
         found.change = if moved > 0.0 { changed / moved } else { 0.0 };
         found.fluidity = if volume > 0.0 { fluid / volume } else { 1.0 };

@@ -21,8 +21,8 @@ impl Implicit {
                      viscosity_by_solids is needed"
                 .to_owned(),
             false => format!(
-                "the liquid is the faster the shorter the step, {:.3e} m/s at last: a wall may push liquid that is \
-                 enclosed on all sides",
+                "the liquid's speed grows as the step gets shorter, {:.3e} m/s in the last attempt: a wall may push \
+                 liquid that is enclosed on all sides",
                 self.state.fastest * self.setup.units.cell_m
             ),
         };
@@ -48,8 +48,8 @@ impl Implicit {
 fn advice(cause: Cause, k: usize) -> String {
     match cause {
         Cause::Unbalanced { cells } => format!(
-            "walls move into {cells} cells of liquid that is enclosed and has no way out but to be compressed; a \
-             max_pressure, a way out, less travel, a lower bulk_modulus or an earlier end is needed"
+            "walls move into {cells} cells of enclosed liquid, which has no outlet and can only be compressed; a \
+             max_pressure, an outlet, less travel, a lower bulk_modulus or an earlier end is needed"
         ),
         Cause::Stiff { ratio } => format!(
             "viscous stress is {ratio:.0e} times what compresses the liquid in a step, eta/(K dt): a lower viscosity, a \

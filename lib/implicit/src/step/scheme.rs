@@ -22,12 +22,12 @@ impl Scheme for Implicit {
         let (mut volume, mut energy) = (0.0, 0.0);
         let flow = self.field(&self.state.flow);
         for pore in 0..mesh.pores.len() {
-            let held = self.state.volumes[pore];
-            if held > 0.0 {
+            let amount = self.state.volumes[pore];
+            if amount > 0.0 {
                 let velocity = flow.mean(&self.setup.lattice, pore);
                 let speed = velocity.iter().map(|v| v * v).sum::<f64>();
-                volume += held * self.compressed(pore);
-                energy += 0.5 * held * speed;
+                volume += amount * self.compressed(pore);
+                energy += 0.5 * amount * speed;
             }
         }
         Diagnostics {
@@ -208,18 +208,18 @@ impl Scheme for Implicit {
         const MOST: f64 = 0.1;
         let steps = self.state.steps;
         let (above, pressure) = self.state.drive.violations;
-        let mut said: Vec<String> = [
+        let mut objections: Vec<String> = [
             (
                 self.state.unsettled,
                 "the passes did not settle (viscosity, compression or torn liquid): a lower speed of the clamp or a smaller integrator.cfl may help",
             ),
             (
                 self.state.air.unsettled,
-                "the passes did not find the pressure of the air that is closed off",
+                "the iteration did not find the pressure of the enclosed air",
             ),
             (
                 above,
-                "liquid that is closed in pressed the clamp's body with more than its max_pressure: a smaller integrator.cfl or a lower speed of the clamp may help",
+                "enclosed liquid pressed the clamp's body with more than its max_pressure: a smaller integrator.cfl or a lower speed of the clamp may help",
             ),
         ]
         .into_iter()
@@ -227,9 +227,9 @@ impl Scheme for Implicit {
         .map(|(count, what)| format!("in {count} of {steps} steps {what}"))
         .collect();
         if pressure > 0.0 {
-            said.push(physics::broken(pressure));
+            objections.push(physics::broken(pressure));
         }
-        (!said.is_empty()).then(|| said.join("; "))
+        (!objections.is_empty()).then(|| objections.join("; "))
     }
 }
 

@@ -68,12 +68,12 @@ impl Implicit {
                 .map(|lost| (viscosity_iteration.used).thickened(mesh, &self.edges, &lost.factor));
             let viscosities = thick.as_ref().unwrap_or(&viscosity_iteration.used);
             clock.add(Stage::Viscosity, begun);
-            let last = take(&mut flow);
-            let ends = (&torn[..], air.as_ref());
+            let previous = take(&mut flow);
+            let surface = (&torn[..], air.as_ref());
             let holds;
             let driven = (middle, drive);
             (flow, forces, holds) =
-                self.solve_once(driven, &unknowns, viscosities, ends, &last, clock)?;
+                self.solve_once(driven, &unknowns, viscosities, surface, &previous, clock)?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;

@@ -37,8 +37,8 @@ impl WaterBalance {
 
     /// Error of the balance: water that is unaccounted for, over that at the start.
     fn missing(&self) -> f64 {
-        let held = self.water.iter().sum::<f64>();
-        (self.start - held - self.in_walls - self.left) / self.start
+        let in_liquid = self.water.iter().sum::<f64>();
+        (self.start - in_liquid - self.in_walls - self.left) / self.start
     }
 
     /// Applies the water exchange of a step of `dt` (s) to the balance and to the liquid `volumes`.
@@ -87,22 +87,22 @@ impl Implicit {
     /// The water balance for diagnostics.
     pub(super) fn water_state(&self) -> Option<WaterState> {
         let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
-        let held = wet.water.iter().sum::<f64>();
-        let solids = self.state.volumes.iter().sum::<f64>() - held;
+        let in_liquid = wet.water.iter().sum::<f64>();
+        let solids = self.state.volumes.iter().sum::<f64>() - in_liquid;
         let volume = self.setup.units.volume();
         Some(WaterState {
-            given_off_m3: (solids * water.start() - held) * volume,
+            given_off_m3: (solids * water.start() - in_liquid) * volume,
             in_walls_m3: wet.in_walls * volume,
             missing: wet.missing(),
-            solids: water.solids(held / solids),
+            solids: water.solids(in_liquid / solids),
         })
     }
 
     /// Solids content of a pore by mass; `None` where the liquid loses no water.
     pub(super) fn solids_of(&self, pore: usize) -> Option<f64> {
         let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
-        let held = wet.water[pore];
-        Some(water.solids(held / (self.state.volumes[pore] - held)))
+        let in_liquid = wet.water[pore];
+        Some(water.solids(in_liquid / (self.state.volumes[pore] - in_liquid)))
     }
 
     /// The water's checkpoint arrays.
@@ -151,9 +151,10 @@ impl Implicit {
             fluidity,
         };
         let counts = |x: &f64| (0.0..=f64::MAX).contains(x);
-        let held = |(&water, &volume): (&f64, &f64)| (-DRIFT..=volume + DRIFT).contains(&water);
+        let is_bounded =
+            |(&water, &volume): (&f64, &f64)| (-DRIFT..=volume + DRIFT).contains(&water);
         let sound = [water.len(), soaked.len()] == [volumes.len(); 2]
-            && water.iter().zip(volumes).all(held)
+            && water.iter().zip(volumes).all(is_bounded)
             && soaked
                 .iter()
                 .chain(&[in_walls, left, ln_viscosity_rate])

@@ -44,8 +44,8 @@ impl Wetting {
     /// depends on the displacement, not the time: in a longer step u' is scaled to the displacement of the last one, or
     /// fronts that come to rest would creep on as steps grow.
     fn contact_friction(&self, hysteresis: f64, speed: f64) -> f64 {
-        let held = self.tension * self.cosine.abs() * hysteresis;
-        held / (self.step_ratio * speed.abs() + REST_DISTANCE / self.dt)
+        let pinning = self.tension * self.cosine.abs() * hysteresis;
+        pinning / (self.step_ratio * speed.abs() + REST_DISTANCE / self.dt)
     }
 }
 
@@ -91,8 +91,9 @@ impl Fronts {
         let perimeter_over_area: Vec<f64> = (0..mesh.pores.len())
             .into_par_iter()
             .map(|pore| {
-                let near = dry[pore] || mesh.neighbours(pore).any(|neighbour| dry[neighbour.pore]);
-                match near && !mesh.is_ghost(mesh.cell(pore)) {
+                let is_around =
+                    dry[pore] || mesh.neighbours(pore).any(|neighbour| dry[neighbour.pore]);
+                match is_around && !mesh.is_ghost(mesh.cell(pore)) {
                     true => perimeter_over_area(lattice, chords, mesh, pore, &|pore| {
                         unknowns.has_pressure(pore)
                     }),

@@ -119,7 +119,7 @@ pub(crate) fn solve(
 pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
     let mesh = problem.mesh;
     let mut forces = vec![0.0; bodies];
-    let mut push = |code: u8, force: f64| {
+    let mut add_force = |code: u8, force: f64| {
         if code != OPEN && code != MIRROR {
             forces[usize::from(code - 1)] += force;
         }
@@ -132,7 +132,7 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
         for voxel in mesh.voxels(pore) {
             for (up, sign) in [(false, -1.0), (true, 1.0)] {
                 if let Some((cell, voxel)) = mesh.next_voxel(mesh.cell(pore), voxel, 1, up) {
-                    push(mesh.code(cell, voxel), sign * p * part);
+                    add_force(mesh.code(cell, voxel), sign * p * part);
                 }
             }
         }
@@ -148,13 +148,13 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
                     weights[half] * (coupling.friction[half] * flow.velocity[face] - wall)
                 })
                 .sum();
-            push(coupling.body, drag);
+            add_force(coupling.body, drag);
             for (pore, up) in problem.ends(face).into_iter().zip([false, true]) {
                 stretching(mesh, face, up, |term| {
                     if term.other.is_none() {
                         let against = flow.velocity[face] - term.closing * flow.speed;
                         let tension = problem.stiffness(pore) * term.weight * against;
-                        push(wall_ahead(problem, pore, up), tension);
+                        add_force(wall_ahead(problem, pore, up), tension);
                     }
                 });
             }

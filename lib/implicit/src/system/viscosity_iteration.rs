@@ -25,7 +25,7 @@ pub(crate) struct ViscosityIteration<'a> {
     pub(crate) slip: f64,
     /// The viscosities for the next solve.
     pub(crate) used: Viscosities,
-    last: Option<Evaluation>,
+    previous: Option<Evaluation>,
     /// d ln(rate)/d ln(viscosity), estimated.
     response: f64,
 }
@@ -38,7 +38,7 @@ impl<'a> ViscosityIteration<'a> {
             factor,
             slip,
             used,
-            last: None,
+            previous: None,
             response: 0.0,
         }
     }
@@ -50,14 +50,14 @@ impl<'a> ViscosityIteration<'a> {
         let used = std::mem::take(&mut self.used);
         let pass = Evaluation { used, rates, power };
         let settled = pass.change(&by_law) < SETTLED;
-        self.used = match &self.last {
+        self.used = match &self.previous {
             Some(before) => {
                 self.response = pass.response(before, self.response);
                 pass.extrapolated(self.liquid, self.factor, self.slip, self.response)
             }
             None => by_law,
         };
-        self.last = Some(pass);
+        self.previous = Some(pass);
         settled
     }
 }
@@ -86,22 +86,22 @@ impl Evaluation {
 
     /// Response d ln(rate)/d ln(viscosity) from the solve `before` to this one, weighted by dissipation: -1 where the stress
     /// is given, 0 where the speed is. Parts of a flow differ, and one solve shows those that it changed most, so the result
-    /// is the mean of the new estimate and the `last` one.
-    fn response(&self, before: &Self, last: f64) -> f64 {
-        let (mut answer, mut cause, mut weight) = (0.0, 0.0, 0.0);
+    /// is the mean of the new estimate and the `previous` one.
+    fn response(&self, before: &Self, previous: f64) -> f64 {
+        let (mut covariance, mut variance, mut weight) = (0.0, 0.0, 0.0);
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
             let [old, new] =
                 [before, self].map(|pass| [pass.used.pores[pore], pass.rates.pores[pore]]);
             if old[1] > 0.0 {
                 let [eta, rate] = [0, 1].map(|i| (new[i] / old[i]).ln());
-                answer += power * eta * rate;
-                cause += power * eta * eta;
+                covariance += power * eta * rate;
+                variance += power * eta * eta;
                 weight += power;
             }
         }
-        match cause > SETTLED * SETTLED * weight {
-            true => 0.5 * (last + (answer / cause).clamp(-1.0, 0.0)),
-            false => last,
+        match variance > SETTLED * SETTLED * weight {
+            true => 0.5 * (previous + (covariance / variance).clamp(-1.0, 0.0)),
+            false => previous,
         }
     }
 

@@ -33,7 +33,7 @@ fn what_the_grid_cannot_hold_is_refused() {
             DOWN,
             ([7.0, 5.0], [8.0, 6.5]),
             STILL,
-            Some("not alike along it"),
+            Some("not uniform along it"),
         ),
         (
             STILL,
