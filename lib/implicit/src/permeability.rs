@@ -6,14 +6,14 @@ use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 
 use crate::geometry::{Chords, Lattice, Mesh};
 use crate::liquid::FaceMap;
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 use crate::system::{
-    Channels, Edges, Fronts, Problem, Scales, Unknowns, Viscosities, WallCouplings, masses,
+    Channels, Coefficients, Edges, Fronts, Problem, Unknowns, Viscosities, WallCouplings, masses,
     resistance, stiffnesses,
 };
 
 /// Relative residual of the solve. The error of the flux is a tenth of it.
-const TOLERANCE: f64 = 0.1 * MISSED;
+const TOLERANCE: f64 = 0.1 * ITERATION_TOLERANCE;
 /// Bound on solver iterations, for solves that stagnate. Larger than in a step, since no later solve continues this one.
 const ITERATIONS: usize = 500;
 
@@ -133,7 +133,7 @@ impl Through {
             WallCouplings::new(&channels, &FaceMap::default(), &WallCouplings::default());
         let unknowns = Unknowns::new(mesh, fractions, &vec![false; mesh.pores.len()]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
-            .map(|face| face.ends().map(|pore| fractions[pore]))
+            .map(|face| face.pores().map(|pore| fractions[pore]))
             .collect();
         let viscosities = Viscosities::constant(mesh, 1.0);
         let problem = Problem {
@@ -152,9 +152,9 @@ impl Through {
             end_height: 0.0,
             fronts: &Fronts::default(),
             pockets: &[],
-            scales: Scales {
+            coefficients: Coefficients {
                 dt: f64::INFINITY,
-                ..Scales::default()
+                ..Coefficients::default()
             },
         };
         let (a, g) = problem

@@ -9,7 +9,7 @@ use crate::step::LN_VISCOSITY_STEP;
 /// on a slab.
 const SPEED_RATIO: f64 = 1.8;
 /// Processor seconds per unknown and step, as measured with 70 to 700 thousand unknowns.
-const SECONDS: f64 = 4e-6;
+const CPU_S_PER_UNKNOWN: f64 = 4e-6;
 /// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the domain (pores, faces, friction of walls), per voxel
 /// (codes, what measures the bond), and of the process, as measured with 9 thousand to 1.6 million unknowns.
 const BYTES: [f64; 4] = [480.0, 40.0, 20.0, 10e6];
@@ -80,7 +80,7 @@ impl Plan {
             dt_s,
             steps,
             memory_bytes: BYTES[0] * unknowns + BYTES[1] * cells + BYTES[2] * voxels + BYTES[3],
-            cpu_s: steps * SECONDS * unknowns,
+            cpu_s: steps * CPU_S_PER_UNKNOWN * unknowns,
             stages: stages(scene),
         }
     }

@@ -6,7 +6,7 @@ pub(crate) const LARGEST_CFL: f64 = 1.5;
 /// Relative error at which the iterations of a step end: of volumes and pressures against their law, and of a step's length
 /// against the travel that is left. It equals the default solver tolerance; a smaller one would repeat solves for digits that
 /// the solution does not have.
-pub(crate) const MISSED: f64 = 1e-3;
+pub(crate) const ITERATION_TOLERANCE: f64 = 1e-3;
 
 /// Settings of the implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]

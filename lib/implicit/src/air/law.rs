@@ -3,7 +3,7 @@
 use physics::{TAIT_C, Tait};
 
 use crate::geometry::DRIFT;
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 
 /// Bound on the ratio of the volumes of successive tangents, which makes the Newton iteration on V = m/p converge from either
 /// side: a larger one overshoots, a smaller one takes more iterations.
@@ -59,7 +59,7 @@ impl Gas {
     pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
         let leak = self.leak_factor(dt);
         // A lower bound on the pressure within the tolerance: a void without air would have no finite tangent.
-        let thinnest = MISSED * self.outside;
+        let thinnest = ITERATION_TOLERANCE * self.outside;
         let absolute = (mass / volume + leak * self.outside) / (1.0 + leak);
         Tangent {
             volume,
@@ -73,7 +73,7 @@ impl Gas {
     pub(crate) fn obeys_law(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
         let off = right.compliance * (pressure - right.pressure).abs();
-        off <= (MISSED * right.volume).max(DRIFT)
+        off <= (ITERATION_TOLERANCE * right.volume).max(DRIFT)
     }
 
     /// The part of `mass` that leaks out in a step of `dt` (s), at whose end the pocket has this volume and this pressure
@@ -93,7 +93,7 @@ impl Gas {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::PASSES;
+    use crate::system::MAX_PASSES;
 
     /// Newton iteration for a front that a pressure pushes against viscous friction. It converges from volumes far off to both
     /// sides, with and without a leak, and for a void without air that grows or collapses.
@@ -127,7 +127,7 @@ mod tests {
                 }
                 tangent = gas.tangent(mass, tangent.volume_at(p), dt);
                 passes += 1;
-                assert!(passes < PASSES, "{push} {resistance}");
+                assert!(passes < MAX_PASSES, "{push} {resistance}");
             };
             let (volume, absolute) = (tangent.volume_at(p), p + gas.outside);
             let leaked = gas.leaked(mass, volume, p, dt);

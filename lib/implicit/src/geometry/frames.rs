@@ -2,12 +2,12 @@
 
 use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
 
-use super::lattice::{ALIGNED, Moving};
+use super::lattice::{ALIGNMENT_TOLERANCE, Moving};
 
 /// Refuses motions that would move walls off the grid's faces.
 pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
-    let tight = ALIGNED * scene.grid.cell_m;
+    let tolerance = ALIGNMENT_TOLERANCE * scene.grid.cell_m;
     if frames.moving.is_some() && scene.boundary[1] == Boundary::Periodic {
         return Err(
             "a body moves along y between periodic sides: give other sides normal to y".into(),
@@ -15,7 +15,8 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
     }
     for (index, body) in scene.bodies.iter().enumerate() {
         let through = |block: &VoxelBlock, a: usize| {
-            let spans = block.origin()[a] <= low[a] + tight && block.max()[a] >= high[a] - tight;
+            let spans =
+                block.origin()[a] <= low[a] + tolerance && block.max()[a] >= high[a] - tolerance;
             spans && block.dims()[a] == 1
         };
         if let Motion::Constant(v) = body.motion {
@@ -41,12 +42,12 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
             // A domain may end within its last row of cells.
             let (beside, along) = match moving.down {
                 true => (
-                    to > bottom + tight,
-                    from <= bottom + tight && to > high[1] - scene.grid.cell_m,
+                    to > bottom + tolerance,
+                    from <= bottom + tolerance && to > high[1] - scene.grid.cell_m,
                 ),
                 false => (
-                    from < top - tight,
-                    to >= top - tight && from <= low[1] + tight,
+                    from < top - tolerance,
+                    to >= top - tolerance && from <= low[1] + tolerance,
                 ),
             };
             if beside && !(along && block.dims()[1] == 1) {
@@ -110,20 +111,24 @@ impl Frames {
         let (bottom, top) = solid.fold((f64::INFINITY, f64::NEG_INFINITY), |so_far, [from, to]| {
             (so_far.0.min(from), so_far.1.max(to))
         });
-        let tight = ALIGNED * scene.grid.cell_m;
+        let tolerance = ALIGNMENT_TOLERANCE * scene.grid.cell_m;
         // The gap ends at the first face of another body ahead of the moving one.
         let others = scene.bodies.iter().enumerate().filter(|at| at.0 != body);
         let blocks = others.flat_map(|(_, body)| &body.blocks);
         let ends = blocks.filter_map(solid_extent).flatten();
         let gap = match down {
             true => [
-                ends.filter(|y| *y <= bottom + tight).fold(low, f64::max),
+                ends.filter(|y| *y <= bottom + tolerance)
+                    .fold(low, f64::max),
                 bottom,
             ],
-            false => [top, ends.filter(|y| *y >= top - tight).fold(high, f64::min)],
+            false => [
+                top,
+                ends.filter(|y| *y >= top - tolerance).fold(high, f64::min),
+            ],
         };
         if let Stop::Closed { travel_m } = scene.stop
-            && travel_m > gap[1] - gap[0] + tight
+            && travel_m > gap[1] - gap[0] + tolerance
         {
             // Rounded down, so that the suggested travel does not exceed the gap.
             let most = (1e10 * (gap[1] - gap[0]) + 1e-3).floor() / 1e4;

@@ -10,7 +10,7 @@ pub(crate) const OPEN: u8 = 0;
 pub(crate) const MIRROR: u8 = u8::MAX;
 /// Largest distance of a body's face from the lattice, voxels, that counts as rounding in files. A larger one would displace
 /// walls, a smaller one would refuse aligned bodies.
-pub(super) const ALIGNED: f64 = 1e-3;
+pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A layer of voxels at constant y: codes, x fastest.
 type Layer = Vec<u8>;
@@ -92,7 +92,9 @@ impl Lattice {
         let grid = &scene.grid;
         let edge = grid.cell_m / k as f64;
         let across = [0, 2].map(|a| grid.cells[a] * k);
-        let layers = |from: f64, to: f64| ((to - from) / edge + ALIGNED).floor().max(0.0) as usize;
+        let layers = |from: f64, to: f64| {
+            ((to - from) / edge + ALIGNMENT_TOLERANCE).floor().max(0.0) as usize
+        };
         let [low, high] = [grid.min_m[1], grid.max_m()[1]];
         let code = |at: [f64; 3]| {
             let body = scene.bodies.iter().position(|body| body.contains(at));
@@ -211,7 +213,7 @@ impl Lattice {
 /// A body with a face off the lattice of voxels of this `edge` (m), and the axis normal to that face.
 fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a RigidBody, usize)> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
-    let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNED;
+    let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNMENT_TOLERANCE;
     let fits = |block: &VoxelBlock, a: usize| {
         let from = if a == 1 { frames.gap } else { [low[a]; 2] };
         let inside = |x: f64| x > low[a] && x < high[a];

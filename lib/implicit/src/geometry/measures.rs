@@ -105,7 +105,7 @@ impl Mesh {
 
     /// Velocity of the grid along y at a face normal to y, per unit of closing speed.
     pub(crate) fn grid_velocity(&self, lattice: &Lattice, face: usize) -> f64 {
-        let row = self.row_of(self.faces[face].ends()[1]);
+        let row = self.row_of(self.faces[face].pores()[1]);
         lattice.grid_speed(self.rows().closing_share(row))
     }
 }

@@ -33,7 +33,7 @@ pub(crate) struct Face {
 
 impl Face {
     /// The pores on the low and the high side.
-    pub(crate) fn ends(&self) -> [usize; 2] {
+    pub(crate) fn pores(&self) -> [usize; 2] {
         [self.low as usize, self.high as usize]
     }
 }
@@ -305,7 +305,7 @@ impl Mesh {
                 face,
                 axis,
                 up,
-                pore: self.faces[face].ends()[usize::from(up)],
+                pore: self.faces[face].pores()[usize::from(up)],
             })
         })
     }
@@ -338,7 +338,7 @@ impl Mesh {
 
     /// Whether a face has a pore in the gap or in a row next to it.
     pub(crate) fn touches_gap(&self, face: usize) -> bool {
-        let [low, high] = self.faces[face].ends().map(|pore| self.row_of(pore));
+        let [low, high] = self.faces[face].pores().map(|pore| self.row_of(pore));
         let rows = self.rows();
         let gap = rows.below..rows.below + rows.gap + 1;
         gap.contains(&high) || gap.contains(&(low + 1))
@@ -352,7 +352,7 @@ impl Mesh {
 
     /// The face between two pores that are neighbours along an axis.
     pub(crate) fn face_between(&self, low: usize, high: usize, axis: usize) -> Option<usize> {
-        (self.faces_of(self.cell(low), axis)).find(|&face| self.faces[face].ends() == [low, high])
+        (self.faces_of(self.cell(low), axis)).find(|&face| self.faces[face].pores() == [low, high])
     }
 
     /// Whether a cell is a ghost cell, beyond an open side.

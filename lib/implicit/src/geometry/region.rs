@@ -106,7 +106,7 @@ impl Mesh {
     pub(crate) fn inner_faces(&self) -> Vec<bool> {
         let inner = self.region.inner(self.periodic());
         let holds = |face: &Face| {
-            face.ends()
+            face.pores()
                 .iter()
                 .any(|&pore| inner.contains(self.cell(pore)))
         };
@@ -127,7 +127,7 @@ impl Mesh {
 
     /// Whether both cells of a face are in `clear`, the set of [`Self::wall_free_cells`].
     pub(crate) fn is_wall_free(&self, face: usize, clear: &Region) -> bool {
-        (self.faces[face].ends().iter()).all(|&pore| clear.contains(self.cell(pore)))
+        (self.faces[face].pores().iter()).all(|&pore| clear.contains(self.cell(pore)))
     }
 }
 

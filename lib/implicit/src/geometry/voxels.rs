@@ -11,7 +11,7 @@ use super::rows::RowKind;
 /// 3.5). Rows: one or two voxels along the edge of a cell; columns: the number of the two transverse axes along which the
 /// edge lies inside a cell. Flow along such an edge is u ~ r^(2/3) sin(2 theta/3); with these factors a single edge adds no
 /// far field c r^(-2/3) sin(2 theta/3).
-const REENTRANT: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
+const REENTRANT_FACTORS: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 
 /// Reach of [`Mesh::step_proximity`] along a wall, cells, rounded up. Nearer to the end of a mesh its result may change when
 /// the mesh grows.
@@ -118,7 +118,7 @@ impl Mesh {
         self.next_cell(cell, axis, up).map(|cell| (cell, voxel))
     }
 
-    /// Logarithm of the re-entrant correction ([`REENTRANT`]) of friction or shear between an open voxel and its next one
+    /// Logarithm of the re-entrant correction ([`REENTRANT_FACTORS`]) of friction or shear between an open voxel and its next one
     /// along `t`: the sum over the re-entrant edges at both sides along `across`. For cubic cells.
     pub(crate) fn ln_reentrant_factor(
         &self,
@@ -156,7 +156,7 @@ impl Mesh {
                 let last = self.k - 1;
                 usize::from(at.1[axis] != if up { last } else { 0 })
             };
-            let full = REENTRANT[self.k - 1][within(t, up) + within(across, side)].ln();
+            let full = REENTRANT_FACTORS[self.k - 1][within(t, up) + within(across, side)].ln();
             sum += if self.k == 1 || whole {
                 full
             } else {

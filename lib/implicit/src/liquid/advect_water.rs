@@ -8,7 +8,7 @@ use crate::geometry::Mesh;
 pub(super) fn advect_water(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64]) {
     let ends = |face: usize| {
         let f = mesh.faces[face];
-        let [low, high] = f.ends();
+        let [low, high] = f.pores();
         if flux[face] > 0.0 {
             (low, high)
         } else {

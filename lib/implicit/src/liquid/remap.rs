@@ -72,7 +72,7 @@ impl FaceMap {
         let old_cells: Vec<_> = (0..new.pores.len()).into_par_iter().map(old_cell).collect();
         let found = |face: usize| {
             let f = new.faces[face];
-            let [low, high] = f.ends().map(|pore| old_cells[pore]);
+            let [low, high] = f.pores().map(|pore| old_cells[pore]);
             let (low, high) = low.zip(high)?;
             let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
             let index = face - new.faces_of(cell, axis).start;

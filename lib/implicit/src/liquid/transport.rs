@@ -144,7 +144,7 @@ pub(super) fn move_through(
     flux: &mut [f64],
     (face, up, volume): (usize, bool, f64),
 ) -> usize {
-    let [low, high] = mesh.faces[face].ends();
+    let [low, high] = mesh.faces[face].pores();
     let (from, to) = if up { (low, high) } else { (high, low) };
     volumes[from] -= volume;
     volumes[to] += volume;
@@ -157,7 +157,7 @@ fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
     std::array::from_fn(|axis| {
         let faces = [false, true].map(|up| mesh.faces_at(pore, axis, up));
         let change = |face: usize| {
-            let [low, high] = mesh.faces[face].ends();
+            let [low, high] = mesh.faces[face].pores();
             fractions[high] - fractions[low]
         };
         faces.into_iter().flatten().map(change).sum()
@@ -167,7 +167,7 @@ fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
 /// Liquid in the volume that a face sweeps out of its donor, by the donor's fraction or the acceptor's.
 fn donor_acceptor(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
     let axis = usize::from(mesh.faces[face].axis);
-    let [low, high] = mesh.faces[face].ends();
+    let [low, high] = mesh.faces[face].pores();
     let (donor, next, sign) = match swept > 0.0 {
         true => (low, high, 1.0),
         false => (high, low, -1.0),

@@ -7,7 +7,7 @@ use super::Implicit;
 use super::drive::LoadControl;
 use super::mid_step::MidStep;
 use super::solve::Solved;
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 use crate::system::{Drive, Flow, REST_DISTANCE};
 
 /// Share of the remaining travel from which on a step is fitted to end the travel. A smaller one lengthens steps too much; a
@@ -33,7 +33,7 @@ fn length_to_end_of_travel(left: f64, [dt, speed]: [f64; 2], before: Option<[f64
 /// Whether the gap's height by the speed found differs from that `assumed`.
 fn height_differs(assumed: f64, height: f64) -> bool {
     // Ten times the tolerance: flow goes with the cube of the height, but another solve costs as much as a step.
-    (height - assumed).abs() > 10.0 * MISSED * assumed
+    (height - assumed).abs() > 10.0 * ITERATION_TOLERANCE * assumed
 }
 
 impl Implicit {
@@ -57,14 +57,17 @@ impl Implicit {
             let now = [solved.dt, solved.flow.speed];
             let reach = now[0] * now[1];
             let end = length_to_end_of_travel(left, now, before.replace(now));
-            if reach < FIT_FROM * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
+            if reach < FIT_FROM * left
+                || (reach / left - 1.0).abs() <= ITERATION_TOLERANCE
+                || end > longest
+            {
                 break;
             }
             solved = self.solve_controlled(end, start)?;
         }
         let reach = solved.flow.speed * solved.dt;
         // An absolute tolerance too: a film under pressure never closes, and voxel surfaces are known less well than that.
-        let tolerance = (MISSED * left).max(REST_DISTANCE);
+        let tolerance = (ITERATION_TOLERANCE * left).max(REST_DISTANCE);
         if reach > left + tolerance {
             let dt = solved.dt;
             let mut middle = self.middle(dt, Some(&solved.flow), &solved.full);
@@ -102,7 +105,7 @@ impl Implicit {
             let [assumed, height] = self.mid_heights(&middle, &solved, dt);
             let is_off = height_differs(assumed, height);
             let overfills = self.overfills(&middle, &solved.flow);
-            if !overfills && !is_off && height >= (1.0 - MISSED) * assumed {
+            if !overfills && !is_off && height >= (1.0 - ITERATION_TOLERANCE) * assumed {
                 return Ok(solved);
             }
             // A faster clamp may fill pores that were not full before. A slower one keeps the pores that were full, or the

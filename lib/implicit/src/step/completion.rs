@@ -39,12 +39,12 @@ impl Implicit {
         };
         self.move_liquid(travel, &flow.velocity, &full, exchange, dt);
         let state = &mut self.state;
-        let fastest = fastest(&flow, self.setup.settings.cfl);
-        state.growth =
-            (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, MAX_FORESEEN_GROWTH);
-        state.fastest = fastest;
+        let courant_speed = courant_speed(&flow, self.setup.settings.cfl);
+        state.growth = (courant_speed / state.courant_speed.max(f64::MIN_POSITIVE))
+            .clamp(1.0, MAX_FORESEEN_GROWTH);
+        state.courant_speed = courant_speed;
         state.unsettled += u64::from(!settled);
-        state.power = flow.dissipation;
+        state.dissipation = flow.dissipation;
         state.time += dt;
         state.dt = dt;
         state.steps += 1;
@@ -102,8 +102,8 @@ impl Implicit {
         let capacities = self.capacities();
         self.mesh.set_height(middle);
         let state = &mut self.state;
-        if let (Some(wet), Some(exchange)) = (&mut state.wet, exchange) {
-            wet.give_off(&exchange, dt, &mut state.volumes);
+        if let (Some(balance), Some(exchange)) = (&mut state.water, exchange) {
+            balance.give_off(&exchange, dt, &mut state.volumes);
         }
         let mesh = &mut self.mesh;
         let Moved {
@@ -114,7 +114,7 @@ impl Implicit {
             mesh,
             [
                 &state.volumes,
-                state.wet.as_ref().map_or(&[], |wet| &wet.water),
+                state.water.as_ref().map_or(&[], |balance| &balance.water),
             ],
             full,
             &capacities,
@@ -124,9 +124,9 @@ impl Implicit {
         mesh.set_height(self.height);
         self.clock.add(Stage::Transport, begun);
         state.volumes = volumes;
-        if let Some(wet) = &mut state.wet {
-            wet.water = water;
-            wet.left += water_lost;
+        if let Some(balance) = &mut state.water {
+            balance.water = water;
+            balance.left += water_lost;
         }
         state.lost += lost;
     }
@@ -151,7 +151,7 @@ impl Implicit {
 
 /// Flow speed for the Courant number, cells/s: that of the fastest faces but for the ignored ones, which may reach
 /// [`LARGEST_CFL`] cells a step.
-pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
+pub(super) fn courant_speed(flow: &Flow, cfl: f64) -> f64 {
     let mut speeds: Vec<f64> = (flow.velocity.iter())
         .filter(|v| **v != 0.0)
         .map(|v| v.abs())

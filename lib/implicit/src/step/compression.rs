@@ -3,7 +3,7 @@
 use physics::Tait;
 
 use crate::geometry::Mesh;
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 
 /// What the compression of full pores in a step depends on.
 pub(super) struct Compression<'a> {
@@ -72,7 +72,7 @@ impl Compression<'_> {
             }
         }
         // The last term is rounding: in free flight nothing changes volume.
-        off <= MISSED * all + 1e-12 * volume
+        off <= ITERATION_TOLERANCE * all + 1e-12 * volume
     }
 }
 

@@ -2,7 +2,7 @@
 
 use physics::{CONTROLLED, Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
 
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 
 /// Control of the clamp's speed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,7 +42,7 @@ impl LoadControl {
             speeds: [full, -stage.speed],
             limit: programme.set_pressure(0.0),
             // A release has a limit of zero, which is no scale for a residual.
-            min_scale: MISSED * programme.largest(),
+            min_scale: ITERATION_TOLERANCE * programme.largest(),
             active: releases,
             releases,
         }

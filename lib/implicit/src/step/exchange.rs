@@ -10,7 +10,7 @@ use physics::Water;
 use super::Implicit;
 use super::water::WaterBalance;
 use crate::liquid::TRACE;
-use crate::water::{Node, Walls, solve};
+use crate::water::{AbsorbingWalls, Node, solve};
 
 /// Water moved in a step, and its effect on the viscosity.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,12 +70,14 @@ impl Implicit {
         dt: f64,
         fractions: &[f64],
     ) -> Result<Option<WaterExchange>, String> {
-        let (Some(water), Some(walls), Some(wet)) =
-            (&self.setup.liquid.water, &self.walls, &self.state.wet)
-        else {
+        let (Some(water), Some(walls), Some(balance)) = (
+            &self.setup.liquid.water,
+            &self.absorbing_walls,
+            &self.state.water,
+        ) else {
             return Ok(None);
         };
-        let nodes = self.nodes(dt, fractions, (water, walls, wet));
+        let nodes = self.nodes(dt, fractions, (water, walls, balance));
         let solved = solve(&nodes, water.least()).ok_or(
             "no balance of the water was found: a smaller uptake, a larger diffusivity or a flatter \
              viscosity_by_solids is needed",
@@ -89,7 +91,7 @@ impl Implicit {
         &self,
         dt: f64,
         fractions: &[f64],
-        (water, walls, wet): (&Water, &Walls, &WaterBalance),
+        (water, walls, balance): (&Water, &AbsorbingWalls, &WaterBalance),
     ) -> Vec<Node> {
         let (mesh, h) = (&self.mesh, self.setup.units.cell_m);
         // Capacity and uptake of walls per area, cells; and the conductance between whole cells.
@@ -98,33 +100,33 @@ impl Implicit {
         let mut number = vec![None; mesh.pores.len()];
         let mut nodes = Vec::new();
         for pore in 0..mesh.pores.len() {
-            let solids = self.state.volumes[pore] - wet.water[pore];
+            let solids = self.state.volumes[pore] - balance.water[pore];
             if solids < TRACE {
                 continue;
             }
             number[pore] = Some(nodes.len() as u32);
             let area = walls.area(mesh, pore);
-            let unsoaked = (capacity * area - wet.soaked[pore]).max(0.0);
+            let unsoaked = (capacity * area - balance.soaked[pore]).max(0.0);
             nodes.push(Node {
                 pore: pore as u32,
                 solids,
-                ratio: wet.water[pore] / solids,
+                ratio: balance.water[pore] / solids,
                 demand: fractions[pore] * unsoaked.min(uptake * area),
                 neighbours: Vec::new(),
             });
         }
         for (index, face) in mesh.faces.iter().enumerate() {
-            let ends = face.ends();
-            let [Some(low), Some(high)] = ends.map(|pore| number[pore]) else {
+            let pores = face.pores();
+            let [Some(low), Some(high)] = pores.map(|pore| number[pore]) else {
                 continue;
             };
-            let filled = fractions[ends[0]].min(fractions[ends[1]]);
+            let filled = fractions[pores[0]].min(fractions[pores[1]]);
             let axis = usize::from(face.axis);
             let area = mesh.area(index);
             let length = |pore: usize, up: bool| {
                 mesh.area_share(index, pore, axis, up) * mesh.volume(pore) / area
             };
-            let distance = 0.5 * (length(ends[0], true) + length(ends[1], false));
+            let distance = 0.5 * (length(pores[0], true) + length(pores[1], false));
             let dry = |n: u32| 1.0 / (1.0 + nodes[n as usize].ratio);
             let k = diffusion * filled * area / distance * 0.5 * (dry(low) + dry(high));
             if k > 0.0 {

@@ -23,7 +23,7 @@ impl Implicit {
             false => format!(
                 "the liquid's speed grows as the step gets shorter, {:.3e} m/s in the last attempt: a wall may push \
                  liquid that is enclosed on all sides",
-                self.state.fastest * self.setup.units.cell_m
+                self.state.courant_speed * self.setup.units.cell_m
             ),
         };
         self.failure(&format!("no acceptable time step was found: {why}"))

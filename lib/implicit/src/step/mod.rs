@@ -24,15 +24,15 @@ use crate::clock::{Clock, Stage};
 use crate::geometry::Mesh;
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, WallCouplings};
-use crate::water::Walls;
+use crate::water::AbsorbingWalls;
 use air::AirState;
-use completion::fastest;
+use completion::courant_speed;
 use drive::ClampDrive;
 use setup::Setup;
 use water::WaterBalance;
 
 /// Bound on the attempts at a step; the second nearly always has an acceptable length.
-const ATTEMPTS: usize = 8;
+const MAX_ATTEMPTS: usize = 8;
 /// Factor by which a step may exceed the Courant number, so that few steps are solved twice.
 const CFL_EXCESS: f64 = 1.1;
 /// Largest change of ln(viscosity) in a step by cure, and the target by loss of water: 1/viscosity in the middle of the step
@@ -40,7 +40,7 @@ const CFL_EXCESS: f64 = 1.1;
 pub(crate) const LN_VISCOSITY_STEP: f64 = 0.2;
 /// Largest ratio of successive step lengths with menisci. A pinned meniscus breaks loose from rest, where no speed bounds the
 /// step, and steps that grow at once do not settle to rest (docs/decisions/menisci.md).
-const GROWTH: f64 = 2.0;
+const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// The implicit scheme on a scene.
 pub struct Implicit {
@@ -50,7 +50,7 @@ pub struct Implicit {
     couplings: WallCouplings,
     edges: Edges,
     /// Absorbing walls of the mesh.
-    walls: Option<Walls>,
+    absorbing_walls: Option<AbsorbingWalls>,
     /// Height of the gap between steps, cells. During a step the mesh has the height of its middle.
     height: f64,
     solver: SaddleSolver,
@@ -74,16 +74,16 @@ struct State {
     /// Length of the last step, s.
     dt: f64,
     /// Flow speed of the last step for the Courant number, cells/s, and its expected growth to the next step, a factor.
-    fastest: f64,
+    courant_speed: f64,
     growth: f64,
     /// Liquid volume that left the domain, cells.
     lost: f64,
     /// Viscous dissipation, over the unit of viscosity.
-    power: f64,
+    dissipation: f64,
     /// Steps whose iterations did not converge.
     unsettled: u64,
     /// The water balance of a liquid that loses water.
-    wet: Option<WaterBalance>,
+    water: Option<WaterBalance>,
 }
 
 impl Implicit {
@@ -94,7 +94,7 @@ impl Implicit {
     pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
-        let wet = setup.wet(&volumes);
+        let balance = setup.initial_water(&volumes);
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
@@ -110,9 +110,9 @@ impl Implicit {
                 flow,
                 drive,
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
-                fastest: speed,
+                courant_speed: speed,
                 growth: 1.0,
-                wet,
+                water: balance,
                 ..State::default()
             },
             solver: SaddleSolver::new(SaddleOptions {
@@ -122,7 +122,7 @@ impl Implicit {
             clock: Clock::default(),
             height: mesh.rows().height,
             edges: Edges::default(),
-            walls: None,
+            absorbing_walls: None,
             setup,
             mesh,
             couplings: WallCouplings::default(),
@@ -144,7 +144,7 @@ impl Implicit {
         self.clock.add(Stage::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
         let mut start = self.state.flow.clone();
-        for attempt in 0..ATTEMPTS {
+        for attempt in 0..MAX_ATTEMPTS {
             let dt = self.step_length(limit).min(longest);
             if !(dt > 0.0 && dt.is_finite()) {
                 return Err(self
@@ -160,7 +160,7 @@ impl Implicit {
                 continue;
             }
             let flow = &solved.flow;
-            let speed = fastest(flow, self.setup.settings.cfl).max(flow.speed.abs());
+            let speed = courant_speed(flow, self.setup.settings.cfl).max(flow.speed.abs());
             let crossed = speed * solved.dt;
             if crossed <= CFL_EXCESS * self.setup.settings.cfl {
                 return Ok(self.complete_step(solved, limit));
@@ -176,8 +176,8 @@ impl Implicit {
 
     /// Time in which the flow of the last step, times its expected growth, crosses a cell, s.
     fn cell_crossing_time(&self) -> f64 {
-        let fastest = self.state.fastest.max(self.state.flow.speed.abs());
-        1.0 / (self.state.growth * fastest)
+        let courant_speed = self.state.courant_speed.max(self.state.flow.speed.abs());
+        1.0 / (self.state.growth * courant_speed)
     }
 
     /// Length of the next step by the flow of the last one, s.
@@ -189,8 +189,8 @@ impl Implicit {
         if let Some(cure) = &liquid.cure {
             dt = dt.min(cure.steady(state.time, LN_VISCOSITY_STEP));
         }
-        if let Some(wet) = &state.wet {
-            dt = dt.min(wet.steady_time());
+        if let Some(balance) = &state.water {
+            dt = dt.min(balance.steady_time());
         }
         // The first step starts from rest, where weight sets the speed.
         if state.steps == 0 {
@@ -205,7 +205,7 @@ impl Implicit {
         if let Some(wetting) = liquid.wetting {
             dt = dt.min(match state.steps {
                 0 => units.cell_m * units.viscosity / wetting.tension,
-                _ => GROWTH * state.dt,
+                _ => MAX_LENGTH_RATIO * state.dt,
             });
         }
         match self.travel_left(limit) {

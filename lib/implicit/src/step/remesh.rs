@@ -7,7 +7,7 @@ use crate::liquid::{
 };
 use crate::settings::LARGEST_CFL;
 use crate::system::{Edges, WallCouplings};
-use crate::water::Walls;
+use crate::water::AbsorbingWalls;
 
 /// Active cells around the liquid at remeshing: twice the distance that liquid covers in a step. The mesh is built anew
 /// where fewer than half of them are left.
@@ -50,9 +50,9 @@ impl Implicit {
         }
         state.flow.velocity = remapped_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = remapped_pressures(mesh, &old, &state.flow.pressure);
-        if let Some(wet) = &mut state.wet {
-            wet.water = remapped_volumes(mesh, &old, &wet.water);
-            wet.soaked = remapped_volumes(mesh, &old, &wet.soaked);
+        if let Some(balance) = &mut state.water {
+            balance.water = remapped_volumes(mesh, &old, &balance.water);
+            balance.soaked = remapped_volumes(mesh, &old, &balance.soaked);
         }
         let face_map = match self.couplings.is_empty() {
             true => FaceMap::default(),
@@ -65,7 +65,8 @@ impl Implicit {
     pub(super) fn rebuild_walls(&mut self, face_map: &FaceMap) {
         let (setup, mesh) = (&self.setup, &self.mesh);
         let water = setup.liquid.water.as_ref();
-        self.walls = water.map(|_| Walls::new(&setup.lattice, mesh, &setup.absorbs));
+        self.absorbing_walls =
+            water.map(|_| AbsorbingWalls::new(&setup.lattice, mesh, &setup.absorbs));
         self.couplings = WallCouplings::new(&setup.channels(mesh), face_map, &self.couplings);
         self.edges = Edges::new(mesh, &setup.lattice, face_map, &self.edges);
     }

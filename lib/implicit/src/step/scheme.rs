@@ -35,9 +35,9 @@ impl Scheme for Implicit {
                 * self.setup.liquid.density
                 * units.volume()
                 * units.cell_m.powi(2),
-            viscous_power: self.state.power * units.force() * units.cell_m,
+            viscous_power: self.state.dissipation * units.force() * units.cell_m,
             volume: volume * units.volume(),
-            max_speed: self.state.fastest * units.cell_m,
+            max_speed: self.state.courant_speed * units.cell_m,
             capped_fraction: 0.0,
             water: self.water_state(),
         }
@@ -62,10 +62,10 @@ impl Scheme for Implicit {
             state.travel,
             state.time,
             state.steps as f64,
-            state.fastest,
+            state.courant_speed,
             state.growth,
             state.lost,
-            state.power,
+            state.dissipation,
             state.unsettled as f64,
             state.flow.speed,
             state.flow.force,
@@ -106,10 +106,10 @@ impl Scheme for Implicit {
             travel,
             time,
             steps,
-            fastest,
+            courant_speed,
             growth,
             lost,
-            power,
+            dissipation,
             unsettled,
             speed,
             force,
@@ -122,9 +122,18 @@ impl Scheme for Implicit {
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
-        if [height, time, steps, fastest, growth, lost, unsettled, dt]
-            .iter()
-            .any(|&x| x < 0.0)
+        if [
+            height,
+            time,
+            steps,
+            courant_speed,
+            growth,
+            lost,
+            unsettled,
+            dt,
+        ]
+        .iter()
+        .any(|&x| x < 0.0)
         {
             return Err("a scalar of the checkpoint is negative where none can be".into());
         }
@@ -144,7 +153,7 @@ impl Scheme for Implicit {
         if volumes.iter().any(|&volume| volume < 0.0) {
             return Err("a volume of the checkpoint is negative".into());
         }
-        let wet = self.restored_water(saved, &volumes)?;
+        let balance = self.restored_water(saved, &volumes)?;
         let velocity = array("velocities", mesh.faces.len())?;
         let pressure = array("pressures", mesh.pores.len())?;
         let air = self.restored_air(saved, mesh.pores.len())?;
@@ -160,10 +169,10 @@ impl Scheme for Implicit {
         self.state.drive.set_state(drive);
         let state = &mut self.state;
         (state.travel, state.time, state.steps) = (travel, time, steps as u64);
-        (state.fastest, state.growth) = (fastest, growth);
-        (state.lost, state.power) = (lost, power);
+        (state.courant_speed, state.growth) = (courant_speed, growth);
+        (state.lost, state.dissipation) = (lost, dissipation);
         state.unsettled = unsettled as u64;
-        (state.volumes, state.air, state.wet) = (volumes, air, wet);
+        (state.volumes, state.air, state.water) = (volumes, air, balance);
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement;
@@ -176,7 +185,7 @@ impl Scheme for Implicit {
         // Set if loss of water and cure together reach the viscosity of a set liquid.
         let cure = self.setup.liquid.cure.as_ref();
         let cured = cure.map_or(1.0, |cure| cure.factor(self.state.time) / cure.factor(0.0));
-        (self.state.wet.as_ref()).is_some_and(|wet| wet.fluidity / cured <= 1.0 / SET)
+        (self.state.water.as_ref()).is_some_and(|balance| balance.fluidity / cured <= 1.0 / SET)
     }
 
     fn stage_times(&self) -> Vec<StageTime> {

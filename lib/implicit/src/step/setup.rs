@@ -10,7 +10,7 @@ use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
 use crate::liquid::{GridOrigin, deposit};
 use crate::settings::Settings;
-use crate::system::{Channels, REST_DISTANCE, Scales};
+use crate::system::{Channels, Coefficients, REST_DISTANCE};
 
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
@@ -190,10 +190,10 @@ impl Setup {
     }
 
     /// Coefficients of the equations of a step of `dt` (s).
-    pub(super) fn scales(&self, dt: f64) -> Scales {
+    pub(super) fn coefficients(&self, dt: f64) -> Coefficients {
         let (h, eta) = (self.units.cell_m, self.units.viscosity);
         let density = self.liquid.density;
-        Scales {
+        Coefficients {
             dt,
             slow: REST_DISTANCE * self.settings.cfl / dt,
             inertia: density * h * h / (eta * dt),

@@ -10,7 +10,7 @@ use super::mid_step::MidStep;
 use crate::air::Air;
 use crate::clock::{Clock, Stage};
 use crate::system::{
-    Drive, Flow, FlowField, PASSES, Problem, Unknowns, Viscosities, ViscosityIteration, forces,
+    Drive, Flow, FlowField, MAX_PASSES, Problem, Unknowns, Viscosities, ViscosityIteration, forces,
     solve, stiffnesses,
 };
 
@@ -61,7 +61,7 @@ impl Implicit {
         let mut flow = take(start);
         let (mut forces, mut iterations) = (Vec::new(), 0);
         let (mut settled, mut air_unsettled) = (false, false);
-        for _ in 0..PASSES {
+        for _ in 0..MAX_PASSES {
             let begun = Instant::now();
             let lost = middle.water_loss.as_ref();
             let thick = lost
@@ -168,7 +168,7 @@ impl Implicit {
             end_height: middle.end,
             fronts: &fronts,
             pockets: air.map_or(&[], |air| &air.pockets),
-            scales: setup.scales(dt),
+            coefficients: setup.coefficients(dt),
         };
         let compression = Compression {
             tait: setup.liquid.tait,

@@ -65,7 +65,7 @@ impl Solved {
 
 impl Setup {
     /// The water balance at the start, for liquid `volumes`.
-    pub(super) fn wet(&self, volumes: &[f64]) -> Option<WaterBalance> {
+    pub(super) fn initial_water(&self, volumes: &[f64]) -> Option<WaterBalance> {
         let start = self.liquid.water.as_ref()?.start();
         let water: Vec<f64> = volumes
             .iter()
@@ -86,40 +86,46 @@ impl Setup {
 impl Implicit {
     /// The water balance for diagnostics.
     pub(super) fn water_state(&self) -> Option<WaterState> {
-        let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
-        let in_liquid = wet.water.iter().sum::<f64>();
+        let (water, balance) = (
+            self.setup.liquid.water.as_ref()?,
+            self.state.water.as_ref()?,
+        );
+        let in_liquid = balance.water.iter().sum::<f64>();
         let solids = self.state.volumes.iter().sum::<f64>() - in_liquid;
         let volume = self.setup.units.volume();
         Some(WaterState {
             given_off_m3: (solids * water.start() - in_liquid) * volume,
-            in_walls_m3: wet.in_walls * volume,
-            missing: wet.missing(),
+            in_walls_m3: balance.in_walls * volume,
+            missing: balance.missing(),
             solids: water.solids(in_liquid / solids),
         })
     }
 
     /// Solids content of a pore by mass; `None` where the liquid loses no water.
     pub(super) fn solids_of(&self, pore: usize) -> Option<f64> {
-        let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
-        let in_liquid = wet.water[pore];
+        let (water, balance) = (
+            self.setup.liquid.water.as_ref()?,
+            self.state.water.as_ref()?,
+        );
+        let in_liquid = balance.water[pore];
         Some(water.solids(in_liquid / (self.state.volumes[pore] - in_liquid)))
     }
 
     /// The water's checkpoint arrays.
     pub(super) fn save_water(&self) -> Vec<(&'static str, Array)> {
-        let Some(wet) = &self.state.wet else {
+        let Some(balance) = &self.state.water else {
             return Vec::new();
         };
         let account = [
-            wet.start,
-            wet.in_walls,
-            wet.left,
-            wet.ln_viscosity_rate,
-            wet.fluidity,
+            balance.start,
+            balance.in_walls,
+            balance.left,
+            balance.ln_viscosity_rate,
+            balance.fluidity,
         ];
         vec![
-            (WATER, Array::F64(wet.water.clone())),
-            (SOAKED, Array::F64(wet.soaked.clone())),
+            (WATER, Array::F64(balance.water.clone())),
+            (SOAKED, Array::F64(balance.soaked.clone())),
             (ACCOUNT, Array::F64(account.to_vec())),
         ]
     }
@@ -133,7 +139,7 @@ impl Implicit {
         saved: &Saved,
         volumes: &[f64],
     ) -> Result<Option<WaterBalance>, String> {
-        let Some(wet) = &self.state.wet else {
+        let Some(balance) = &self.state.water else {
             return Ok(None);
         };
         let (water, soaked) = (saved.f64s(WATER)?, saved.f64s(SOAKED)?);
@@ -159,7 +165,7 @@ impl Implicit {
                 .iter()
                 .chain(&[in_walls, left, ln_viscosity_rate])
                 .all(counts)
-            && start == wet.start
+            && start == balance.start
             && fluidity > 0.0
             && fluidity <= 1.0
             && found.missing().abs() <= DRIFT;

@@ -19,7 +19,7 @@ const FREE_FRICTION: f64 = 1e-7;
 
 /// Coefficients of the equations of a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Scales {
+pub(crate) struct Coefficients {
     /// Length of the step, s.
     pub(crate) dt: f64,
     /// Flow speed that counts as rest, cells/s.
@@ -58,7 +58,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) fronts: &'a Fronts,
     /// Pockets of air with an unknown pressure.
     pub(crate) pockets: &'a [Pocket],
-    pub(crate) scales: Scales,
+    pub(crate) coefficients: Coefficients,
 }
 
 impl Problem<'_> {
@@ -73,8 +73,8 @@ impl Problem<'_> {
     }
 
     /// The two pores of a face.
-    pub(super) fn ends(&self, face: usize) -> [usize; 2] {
-        self.mesh.faces[face].ends()
+    pub(super) fn face_pores(&self, face: usize) -> [usize; 2] {
+        self.mesh.faces[face].pores()
     }
 
     /// Whether the velocity of a face is an unknown.
@@ -85,7 +85,7 @@ impl Problem<'_> {
     /// Weights of wall friction at a face: liquid fraction times viscosity at the walls, in its low and its high half.
     pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
         let parts = self.halves[face];
-        let eta = self.viscosities.at_walls(face, self.ends(face));
+        let eta = self.viscosities.at_walls(face, self.face_pores(face));
         [parts[0] * eta[0], parts[1] * eta[1]]
     }
 
@@ -108,9 +108,10 @@ impl Problem<'_> {
             .get(face)
             .copied()
             .unwrap_or_default();
-        let mut own = friction + drag + self.scales.inertia * self.masses[face] + FREE_FRICTION;
+        let mut own =
+            friction + drag + self.coefficients.inertia * self.masses[face] + FREE_FRICTION;
         let number = |face: usize| self.unknowns.face(face);
-        for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
+        for (pore, up) in self.face_pores(face).into_iter().zip([false, true]) {
             let stiffness = self.stiffness(pore);
             if stiffness == 0.0 {
                 continue;
@@ -169,13 +170,13 @@ impl Problem<'_> {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
         let mass = self.masses[face];
-        let inertia = self.scales.inertia * mass;
-        let standing = self.scales.gravity[axis] * mass + self.front_force(face);
+        let inertia = self.coefficients.inertia * mass;
+        let standing = self.coefficients.gravity[axis] * mass + self.front_force(face);
         let known = inertia * self.before[face] + standing;
         let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
         let coupling = self.couplings.of(face);
         let weights = self.wall_weights(face);
-        let etas = self.viscosities.at_walls(face, f.ends());
+        let etas = self.viscosities.at_walls(face, f.pores());
         for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(coupling.sliding) {
             force[0] += weight * own;
             force[1] += weight * closing;
@@ -187,7 +188,7 @@ impl Problem<'_> {
             force[0] += inertia * grid * self.speed_before;
             force[1] -= inertia * grid;
             force[3] = -grid * (force[0] - self.front_force(face));
-            for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
+            for (pore, up) in self.face_pores(face).into_iter().zip([false, true]) {
                 let stiffness = self.stiffness(pore);
                 stretching(self.mesh, face, up, |term| {
                     if term.other.is_none_or(|other| self.moves(other)) {
@@ -220,7 +221,7 @@ impl Problem<'_> {
             return walls;
         }
         let grid = self.mesh.grid_velocity(self.lattice, face);
-        walls + self.scales.inertia * self.masses[face] * grid * grid
+        walls + self.coefficients.inertia * self.masses[face] * grid * grid
     }
 
     /// Force per closing speed by the stretching of a gap pore whose faces are at rest relative to the grid.
@@ -261,7 +262,7 @@ impl Problem<'_> {
                     weights[half] * (own * own / coupling.friction[half] - 2.0 * own * u)
                 })
                 .sum();
-            walls - self.scales.inertia * self.masses[face] * (u + grid).powi(2)
+            walls - self.coefficients.inertia * self.masses[face] * (u + grid).powi(2)
         };
         self.unknowns.faces.iter().zip(u).map(part).sum()
     }

@@ -67,7 +67,7 @@ impl WallCouplings {
             .par_iter_mut()
             .enumerate()
             .for_each(|(face, coupling)| {
-                let mut ends = channels.mesh.faces[face].ends().into_iter();
+                let mut ends = channels.mesh.faces[face].pores().into_iter();
                 if coupling.depends_on_gap && ends.any(|pore| fractions[pore] > 0.0) {
                     *coupling = channels.coupling(face, !coupling.walled, true);
                 }
@@ -103,7 +103,7 @@ impl Channels<'_> {
                 .filter_map(|voxel| mesh.lattice_place(self.lattice, place, voxel))
                 .any(|place| self.chords.through_gap(self.lattice, place))
         };
-        mesh.touches_gap(face) || mesh.faces[face].ends().into_iter().any(through)
+        mesh.touches_gap(face) || mesh.faces[face].pores().into_iter().any(through)
     }
 
     /// Computes the coupling of a face; `clear` says that it has no walls.
@@ -113,7 +113,7 @@ impl Channels<'_> {
             ..WallCoupling::default()
         };
         let f = self.mesh.faces[face];
-        let places = f.ends().map(|pore| self.mesh.place(self.mesh.cell(pore)));
+        let places = f.pores().map(|pore| self.mesh.place(self.mesh.cell(pore)));
         let axis = usize::from(f.axis);
         if self.influence_length.is_infinite() {
             return coupling.with(|value| value as f32);
@@ -140,7 +140,7 @@ impl Channels<'_> {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
         let axis = usize::from(f.axis);
-        let pores = f.ends();
+        let pores = f.pores();
         let cells = pores.map(|pore| mesh.cell(pore));
         let across = 3 - axis - t;
         let voxel = |half: usize, i: usize| {

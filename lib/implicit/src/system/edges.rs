@@ -222,7 +222,7 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
 /// The edge at one side of a face along `t` if all cells around are wholly open: one pore each, one face between two.
 fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
     let f = mesh.faces[face];
-    let cells = f.ends().map(|pore| mesh.cell(pore));
+    let cells = f.pores().map(|pore| mesh.cell(pore));
     let beside = [
         mesh.next_cell(cells[0], t, up)?,
         mesh.next_cell(cells[1], t, up)?,
@@ -262,8 +262,8 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     if own == 0 {
         return None;
     }
-    let ends = f.ends();
-    let cells = ends.map(|pore| mesh.cell(pore));
+    let pores = f.pores();
+    let cells = pores.map(|pore| mesh.cell(pore));
     let beside = [
         mesh.next_cell(cells[0], t, up)?,
         mesh.next_cell(cells[1], t, up)?,
@@ -280,7 +280,7 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
         true => mesh.face_between(near, far, t),
         false => mesh.face_between(far, near, t),
     };
-    let (beside_low, beside_high) = (joined(ends[0], low)?, joined(ends[1], high)?);
+    let (beside_low, beside_high) = (joined(pores[0], low)?, joined(pores[1], high)?);
     let own_voxel = |half: usize| {
         let mut at = voxel(half);
         at[t] = near;

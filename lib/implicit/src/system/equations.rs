@@ -37,7 +37,7 @@ impl Equations {
         excess_rate: &[f64],
         drive: Drive,
     ) -> Result<Self, SolveError> {
-        let (unknowns, scales) = (problem.unknowns, &problem.scales);
+        let (unknowns, coefficients) = (problem.unknowns, &problem.coefficients);
         let (a, g) = (problem.velocity_block()?, problem.outflow()?);
         let [known, closing, mut standing, force_on_body, own, clinging] =
             problem.right_hand_sides();
@@ -62,7 +62,7 @@ impl Equations {
             g,
             c: of_pores(&|pore| {
                 let end = problem.mesh.volume_at(pore, problem.end_height);
-                end * scales.compressibility / scales.dt
+                end * coefficients.compressibility / coefficients.dt
             }),
             two_eta: of_pores(&|pore| 2.0 * problem.viscosities.pores[pore]),
             friction: (unknowns.faces.par_iter())
@@ -95,7 +95,7 @@ impl Equations {
     /// apply: with the full pressure as the unknown, the terms of a soft pocket would outweigh all others.
     fn add_pockets(&mut self, problem: &Problem) {
         let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
-        let dt = problem.scales.dt;
+        let dt = problem.coefficients.dt;
         for pocket in problem.pockets {
             let (pores, tangent) = (pocket.pores.iter(), pocket.tangent);
             let closing = pores.map(|&pore| problem.closing_loss(pore as usize)).sum();
@@ -119,7 +119,7 @@ impl Equations {
             b: &self.known,
             standing: &self.standing,
             clinging: &self.clinging,
-            slow: problem.scales.slow,
+            slow: problem.coefficients.slow,
             volume_source: &self.volume_source,
             carried: &self.excess_rate,
         }
@@ -160,7 +160,7 @@ impl Equations {
 /// `D_B` of the preconditioner: inertia, and Darcy friction of the channel around a face (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
     let coupling = problem.couplings.of(face);
-    let slip = problem.scales.influence_length;
+    let slip = problem.coefficients.influence_length;
     let narrow = match slip.is_finite() {
         true => {
             12.0 * coupling.inverse_width_squared
@@ -169,8 +169,8 @@ pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
         false => 0.0,
     };
     let [low, high] = problem
-        .ends(face)
+        .face_pores(face)
         .map(|pore| problem.viscosities.pores[pore]);
     // Keeps the diagonal positive.
-    (problem.masses[face] * (problem.scales.inertia + low.max(high) * narrow)).max(1e-6)
+    (problem.masses[face] * (problem.coefficients.inertia + low.max(high) * narrow)).max(1e-6)
 }

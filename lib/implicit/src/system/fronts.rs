@@ -6,7 +6,7 @@ use saddle_point::RowEntries;
 
 use super::assembly::Problem;
 use super::unknowns::Unknowns;
-use crate::geometry::{Chords, Lattice, Mesh, Neighbour, perimeter_over_area};
+use crate::geometry::{Chords, Lattice, Mesh, perimeter_over_area};
 
 /// Displacement in a step that counts as rest, cells: far less than a step moves, far more than the error of a solution. It
 /// makes v_0 = REST_DISTANCE/dt of docs/methods.md section 3.12: a meniscus that moves by it feels half of the contact-line
@@ -145,7 +145,7 @@ impl FrontView<'_> {
     /// Friction of the contact line at a face, force per velocity.
     fn contact_friction(&self, face: usize, velocity: f64) -> f64 {
         let f = &self.mesh.faces[face];
-        let [low, high] = f.ends();
+        let [low, high] = f.pores();
         let (wet, dry, up) = match [low, high].map(|pore| self.dry[pore]) {
             [false, true] => (low, high, true),
             [true, false] => (high, low, false),
@@ -180,7 +180,7 @@ impl FrontView<'_> {
             [here; 2],
         );
         for neighbour in self.mesh.neighbours(dry) {
-            let Neighbour { pore: beside, .. } = neighbour;
+            let beside = neighbour.pore;
             let perimeter_over_area = self.perimeter_over_area[beside];
             let widen = |range: &mut [f64; 2]| {
                 *range = [
@@ -225,7 +225,7 @@ impl Problem<'_> {
     /// inflow into its pore through all faces: friction at each face alone would let a stepped front, which has more faces,
     /// pass faster.
     pub(super) fn add_dynamic_angle(&self, face: usize, entries: &mut RowEntries) {
-        let ends = self.ends(face);
+        let ends = self.face_pores(face);
         for (dry, wet, sign) in [(ends[0], ends[1], -1.0), (ends[1], ends[0], 1.0)] {
             let loss = self
                 .fronts
@@ -247,7 +247,7 @@ impl Problem<'_> {
 
     /// Force on a face by p_front beyond the surface.
     pub(super) fn front_force(&self, face: usize) -> f64 {
-        let ends = self.ends(face);
+        let ends = self.face_pores(face);
         let pressure = |pore: usize| self.fronts.pressure.get(pore).copied().unwrap_or_default();
         let pressure = match ends.map(|pore| self.unknowns.has_pressure(pore)) {
             [true, false] => -pressure(ends[1]),

@@ -12,7 +12,7 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
     let full = |pore: usize| fractions[pore] >= FULL;
     (mesh.faces.par_iter())
         .map(|face| {
-            let ends = face.ends();
+            let ends = face.pores();
             [0, 1].map(|half| {
                 let (pore, other) = (ends[half], ends[1 - half]);
                 let fraction = fractions[pore];
@@ -21,7 +21,7 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
                 }
                 let up = half == 1;
                 let mut opposite = mesh.faces_at(pore, usize::from(face.axis), up);
-                let behind = opposite.any(|face| full(mesh.faces[face].ends()[half]));
+                let behind = opposite.any(|face| full(mesh.faces[face].pores()[half]));
                 match (full(other), behind) {
                     (true, false) => 2.0 * fraction,
                     (false, true) => 0.0,
@@ -39,7 +39,7 @@ pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
         let half = |((pore, up), part): ((usize, bool), &f64)| {
             0.5 * part * mesh.volume(pore) * mesh.area_share(index, pore, axis, up)
         };
-        (face.ends().into_iter().zip([true, false]))
+        (face.pores().into_iter().zip([true, false]))
             .zip(parts)
             .map(half)
             .sum::<f64>()
@@ -53,7 +53,7 @@ pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosities: &Viscos
     let own = viscosities.edges.is_empty();
     let viscosity = |pore: usize| if own { viscosities.pores[pore] } else { 1.0 };
     let of = |(face, parts): (&Face, &[f64; 2])| {
-        let [low, high] = face.ends().map(viscosity);
+        let [low, high] = face.pores().map(viscosity);
         parts[0] * low + parts[1] * high
     };
     mesh.faces.par_iter().zip(halves).map(of).collect()

@@ -15,7 +15,7 @@ mod unknowns;
 mod viscosity;
 mod viscosity_iteration;
 
-pub(crate) use assembly::{Problem, Scales};
+pub(crate) use assembly::{Coefficients, Problem};
 pub(crate) use couplings::{Channels, WallCouplings};
 pub(crate) use edges::Edges;
 pub(crate) use equations::resistance;
@@ -25,4 +25,4 @@ pub(crate) use profile::Profile;
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};
 pub(crate) use viscosity::{FlowField, Viscosities};
-pub(crate) use viscosity_iteration::{PASSES, ViscosityIteration};
+pub(crate) use viscosity_iteration::{MAX_PASSES, ViscosityIteration};

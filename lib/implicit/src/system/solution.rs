@@ -53,7 +53,7 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// Scales the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
+    /// Coefficients the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
     pub(crate) fn scale_to_speed(&mut self, speed: f64) {
         let factor = speed / self.speed;
         if !(factor > 0.0 && factor.is_finite()) || factor == 1.0 {
@@ -149,7 +149,7 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
                 })
                 .sum();
             add_force(coupling.body, drag);
-            for (pore, up) in problem.ends(face).into_iter().zip([false, true]) {
+            for (pore, up) in problem.face_pores(face).into_iter().zip([false, true]) {
                 stretching(mesh, face, up, |term| {
                     if term.other.is_none() {
                         let against = flow.velocity[face] - term.closing * flow.speed;

@@ -17,7 +17,7 @@ pub(crate) struct StretchTerm {
 pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(StretchTerm)) {
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
-    let pore = f.ends()[usize::from(up)];
+    let pore = f.pores()[usize::from(up)];
     let edge = mesh.edge(pore, axis);
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
     let own = mesh.area_share(face, pore, axis, !up);

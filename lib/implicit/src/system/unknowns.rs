@@ -35,15 +35,15 @@ impl Unknowns {
             has_pressure: vec![false; mesh.pores.len()],
         };
         for face in by_rows(mesh) {
-            let ends = mesh.faces[face].ends();
+            let pores = mesh.faces[face].pores();
             let liquid = |pore: usize| fractions[pore] * mesh.volume(pore);
-            let wet = || ends.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
-            if !(ends.iter().any(|&pore| full(pore)) || wet()) {
+            let wet = || pores.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
+            if !(pores.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }
             unknowns.faces.push(face as u32);
             unknowns.face_number[face] = NonZeroU32::new(unknowns.faces.len() as u32);
-            for pore in ends.into_iter().filter(|&pore| full(pore)) {
+            for pore in pores.into_iter().filter(|&pore| full(pore)) {
                 unknowns.has_pressure[pore] = true;
             }
         }

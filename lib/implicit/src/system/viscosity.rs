@@ -55,7 +55,7 @@ impl Viscosities {
         if !thick.edges.is_empty() {
             for face in 0..mesh.faces.len() {
                 for (index, edge) in edges.of(face).iter().enumerate() {
-                    let around = [face, edge.next as usize].map(|face| mesh.faces[face].ends());
+                    let around = [face, edge.next as usize].map(|face| mesh.faces[face].pores());
                     let sum: f64 = around.as_flattened().iter().map(|&pore| factor[pore]).sum();
                     thick.edges[edges.first(face) + index] *= 0.25 * sum;
                 }

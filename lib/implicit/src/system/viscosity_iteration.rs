@@ -7,14 +7,14 @@ use rayon::prelude::*;
 use super::viscosity::{Rates, Viscosities, WallShear};
 
 /// Bound on the iterations over all that depends on the solution; those that converge take fewer.
-pub(crate) const PASSES: usize = 30;
+pub(crate) const MAX_PASSES: usize = 30;
 
 /// Largest |ln| of the factor by which a rate is extrapolated, and the tolerance to which it is solved.
 const MAX_EXPONENT: f64 = 30.0;
-const EXPONENT_TOLERANCE: f64 = 0.05 * SETTLED;
+const EXPONENT_TOLERANCE: f64 = 0.05 * CONVERGED;
 /// Mean change of ln(viscosity), weighted by dissipation, at which the iteration ends. A smaller one says nothing of the
 /// response.
-const SETTLED: f64 = 2e-3;
+const CONVERGED: f64 = 2e-3;
 
 /// The iteration on the viscosity field of a step.
 pub(crate) struct ViscosityIteration<'a> {
@@ -49,7 +49,7 @@ impl<'a> ViscosityIteration<'a> {
         let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
         let pass = Evaluation { used, rates, power };
-        let settled = pass.change(&by_law) < SETTLED;
+        let settled = pass.change(&by_law) < CONVERGED;
         self.used = match &self.previous {
             Some(before) => {
                 self.response = pass.response(before, self.response);
@@ -99,7 +99,7 @@ impl Evaluation {
                 weight += power;
             }
         }
-        match variance > SETTLED * SETTLED * weight {
+        match variance > CONVERGED * CONVERGED * weight {
             true => 0.5 * (previous + (covariance / variance).clamp(-1.0, 0.0)),
             false => previous,
         }

@@ -4,4 +4,4 @@ mod solve;
 mod walls;
 
 pub(crate) use solve::{Node, solve};
-pub(crate) use walls::Walls;
+pub(crate) use walls::AbsorbingWalls;

@@ -1,6 +1,6 @@
 //! Water balance of all pores: solves for the water ratio X of each, bounded from below by the limit of the walls' uptake.
 
-use crate::system::PASSES;
+use crate::system::MAX_PASSES;
 
 /// Relative residual of the solution, small enough that a run conserves water; a smaller one is below rounding.
 const TOLERANCE: f64 = 1e-10;
@@ -42,7 +42,7 @@ pub(crate) fn solve(nodes: &[Node], min_ratio: f64) -> Option<(Vec<f64>, Vec<boo
         .map(|node| node.demand > 0.0 && node.ratio <= min_ratio * (1.0 + LIMIT_TOLERANCE))
         .collect();
     // Active set: nodes switch between meeting the whole demand and resting at the limit.
-    for _ in 0..PASSES {
+    for _ in 0..MAX_PASSES {
         for (x, at_limit) in ratio.iter_mut().zip(&at_limit) {
             *x = if *at_limit { min_ratio } else { *x };
         }

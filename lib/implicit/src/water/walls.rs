@@ -10,12 +10,12 @@ use crate::geometry::{Lattice, MIRROR, Mesh, OPEN};
 
 /// Radius around a voxel face that decides its inclination, cells: a tube of six cells is then 2 % too large. A larger radius
 /// rounds corners, a smaller one sees single steps.
-const AROUND: f64 = 1.3;
+const RADIUS: f64 = 1.3;
 
 /// Absorbing wall area of each pore, cells: that normal to y, and that parallel to y per row height.
-pub(crate) struct Walls(Vec<[f64; 2]>);
+pub(crate) struct AbsorbingWalls(Vec<[f64; 2]>);
 
-impl Walls {
+impl AbsorbingWalls {
     /// The walls of bodies that `take` water.
     pub(crate) fn new(lattice: &Lattice, mesh: &Mesh, take: &[bool]) -> Self {
         let takes = |code: u8| code != OPEN && code != MIRROR && take[usize::from(code - 1)];
@@ -62,7 +62,7 @@ fn inclination(
         z as i64 - mesh.ghost_layers[2] as i64,
     ];
     let at: [i64; 3] = std::array::from_fn(|a| cells[a] * k + voxel[a] as i64);
-    let radius = AROUND * mesh.k as f64;
+    let radius = RADIUS * mesh.k as f64;
     let reach = (radius + 0.5) as i64;
     let deep = if lattice.flat { 0 } else { reach };
     let mut centroid = [0.0; 3];
