@@ -200,7 +200,7 @@ impl Through {
 /// else 0.
 fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let n = mesh.size[axis];
-    let layer = |pore: usize| mesh.place(mesh.cell(pore))[axis];
+    let layer = |pore: usize| mesh.cell_indices(mesh.cell(pore))[axis];
     let reached = |sides: [usize; 2]| {
         let mut found: Vec<bool> = (0..mesh.pores.len())
             .map(|pore| sides.contains(&layer(pore)))

@@ -27,7 +27,7 @@ pub(crate) struct Chords {
 
 /// Address of a voxel: part of the lattice, layer counted from the gap, index in the layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum VoxelPlace {
+pub(crate) enum VoxelAddress {
     Below(usize, usize),
     Gap(usize),
     Above(usize, usize),
@@ -68,15 +68,15 @@ impl Chords {
     pub(crate) fn length(
         &self,
         lattice: &Lattice,
-        place: VoxelPlace,
+        address: VoxelAddress,
         axis: usize,
         gap: f64,
     ) -> f64 {
-        let (part, layer, at) = match place {
-            VoxelPlace::Gap(at) if axis == 1 => return self.length_through_gap(lattice, at, gap),
-            VoxelPlace::Gap(at) => return f64::from(self.gap[axis / 2][at]),
-            VoxelPlace::Below(layer, at) => (&lattice.below, layer, at),
-            VoxelPlace::Above(layer, at) => (&lattice.above, layer, at),
+        let (part, layer, at) = match address {
+            VoxelAddress::Gap(at) if axis == 1 => return self.length_through_gap(lattice, at, gap),
+            VoxelAddress::Gap(at) => return f64::from(self.gap[axis / 2][at]),
+            VoxelAddress::Below(layer, at) => (&lattice.below, layer, at),
+            VoxelAddress::Above(layer, at) => (&lattice.above, layer, at),
         };
         if axis != 1 {
             return f64::from(chord_in_layer(&part[layer], at, axis / 2, lattice));
@@ -93,12 +93,12 @@ impl Chords {
     }
 
     /// Whether the chord along y through a voxel goes through the gap.
-    pub(crate) fn through_gap(&self, lattice: &Lattice, place: VoxelPlace) -> bool {
-        let (column, layer) = match place {
-            VoxelPlace::Gap(_) => return true,
+    pub(crate) fn through_gap(&self, lattice: &Lattice, address: VoxelAddress) -> bool {
+        let (column, layer) = match address {
+            VoxelAddress::Gap(_) => return true,
             _ if lattice.moving.is_none() => return false,
-            VoxelPlace::Below(layer, at) => (&self.columns[0][at], layer),
-            VoxelPlace::Above(layer, at) => (&self.columns[1][at], layer),
+            VoxelAddress::Below(layer, at) => (&self.columns[0][at], layer),
+            VoxelAddress::Above(layer, at) => (&self.columns[1][at], layer),
         };
         layer < column.voxels as usize
     }

@@ -100,11 +100,11 @@ impl Lattice {
             let body = scene.bodies.iter().position(|body| body.contains(at));
             body.map_or(OPEN, |body| body as u8 + 1)
         };
-        let place = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
+        let centre = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
         let layer = |y: f64| -> Layer {
-            let places = (0..across[1]).flat_map(|z| (0..across[0]).map(move |x| [x, z]));
-            places
-                .map(|[x, z]| code([place(0, x), y, place(2, z)]))
+            let positions = (0..across[1]).flat_map(|z| (0..across[0]).map(move |x| [x, z]));
+            positions
+                .map(|[x, z]| code([centre(0, x), y, centre(2, z)]))
                 .collect()
         };
         let [bottom, top] = frames.gap;
@@ -157,8 +157,8 @@ impl Lattice {
             }
         };
         let layer = |y: usize| {
-            let places = (0..nz).flat_map(|z| (0..nx).map(move |x| [x, y, z]));
-            places.map(code).collect()
+            let positions = (0..nz).flat_map(|z| (0..nx).map(move |x| [x, y, z]));
+            positions.map(code).collect()
         };
         let layers = (0..ny).map(layer).collect();
         Self::still(k, [size[0], size[2]], boundary, layers)

@@ -135,8 +135,9 @@ impl Mesh {
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
         mesh.codes = (0..k3 * cells).into_par_iter().map(code).collect();
         for cell in 0..cells {
-            let place = mesh.place(cell);
-            let sides = |a: usize| u8::from(place[a] == 0) | u8::from(place[a] + 1 == size[a]) << 1;
+            let indices = mesh.cell_indices(cell);
+            let sides =
+                |a: usize| u8::from(indices[a] == 0) | u8::from(indices[a] + 1 == size[a]) << 1;
             mesh.at_sides
                 .push((0..3).map(|a| sides(a) << (2 * a)).sum());
             mesh.pore_start.push(mesh.pores.len() as u32);
@@ -234,7 +235,7 @@ impl Mesh {
     }
 
     /// Indices of a cell in the box: x, row of the mesh, z.
-    pub(crate) fn place(&self, cell: usize) -> [usize; 3] {
+    pub(crate) fn cell_indices(&self, cell: usize) -> [usize; 3] {
         let [nx, ny, _] = self.size;
         [cell % nx, cell / nx % ny, cell / (nx * ny)]
     }
@@ -245,7 +246,7 @@ impl Mesh {
 
     /// Row of the grid of a cell.
     pub(crate) fn row(&self, cell: usize) -> usize {
-        self.place(cell)[1] + self.range.start
+        self.cell_indices(cell)[1] + self.range.start
     }
 
     /// Row of the grid of a pore.
@@ -360,10 +361,11 @@ impl Mesh {
         if !self.boundary.contains(&Boundary::Open) {
             return false;
         }
-        let place = self.place(cell);
-        let across =
-            |a: usize| self.ghost_layers[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
-        let row = place[1] + self.range.start;
+        let indices = self.cell_indices(cell);
+        let across = |a: usize| {
+            self.ghost_layers[a] == 1 && (indices[a] == 0 || indices[a] + 1 == self.size[a])
+        };
+        let row = indices[1] + self.range.start;
         let along =
             self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows().len());
         along || across(0) || across(2)

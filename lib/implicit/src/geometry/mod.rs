@@ -11,7 +11,7 @@ mod split;
 mod throats;
 mod voxels;
 
-pub(crate) use chords::{Chords, VoxelPlace};
+pub(crate) use chords::{Chords, VoxelAddress};
 pub use lattice::check;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, Neighbour, others};

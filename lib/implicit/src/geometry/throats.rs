@@ -1,6 +1,6 @@
 //! Pore throats: perimeter over area of the cross-section that a meniscus spans, N of docs/methods.md section 3.12.
 
-use super::chords::{Chords, LONGEST_CHORD, VoxelPlace};
+use super::chords::{Chords, LONGEST_CHORD, VoxelAddress};
 use super::lattice::{Lattice, OPEN};
 use super::mesh::{Mesh, others};
 
@@ -46,20 +46,20 @@ impl ThroatView<'_> {
     /// Perimeter over area at one voxel, 1/voxels. In plane strain the throat has no walls along z. A width counts as one
     /// voxel at least: images resolve no less, and the capillary pressure of a closing gap would grow without limit.
     fn at_voxel(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
-        let place = self.mesh.place(cell);
-        let Some(place) = self.mesh.lattice_place(self.lattice, place, voxel) else {
+        let indices = self.mesh.cell_indices(cell);
+        let Some(address) = self.mesh.lattice_address(self.lattice, indices, voxel) else {
             return 0.0;
         };
         let axes = if self.lattice.flat { 2 } else { 3 };
         let far = f64::from(LONGEST_CHORD);
         let lengths = [0, 1, 2].map(|axis| match axis < axes {
-            true => self.chords.length(self.lattice, place, axis, self.gap),
+            true => self.chords.length(self.lattice, address, axis, self.gap),
             false => far,
         });
         let mut widths: Vec<(f64, usize)> = (0..axes)
             .map(|axis| match self.lattice.flat {
                 true => (lengths[axis], axis),
-                false => (self.throat_width(place, axis, &lengths), axis),
+                false => (self.throat_width(address, axis, &lengths), axis),
             })
             .filter(|width| width.0 < far)
             .collect();
@@ -96,18 +96,18 @@ impl ThroatView<'_> {
             .chain(above)
             .collect();
         let last = chord.len() - 1;
-        let places = [0, last / 2, last.div_ceil(2), last].map(|at| chord[at]);
+        let voxels = [0, last / 2, last.div_ceil(2), last].map(|at| chord[at]);
         let is_wet = |&(cell, voxel): &Voxel| self.mesh.pore_at(cell, voxel).is_some_and(wet);
         (0..axes).filter(|&a| a != axis).any(|a| {
             [false, true].into_iter().any(|up| {
-                let mut places = Some(places);
+                let mut voxels = Some(voxels);
                 for _ in 0..=length as usize {
-                    let Some(at) = places else { break };
+                    let Some(at) = voxels else { break };
                     if at.iter().all(is_wet) {
                         return true;
                     }
                     let next = at.map(|at| step(at, a, up));
-                    places = match next {
+                    voxels = match next {
                         [Some(a), Some(b), Some(c), Some(d)] => Some([a, b, c, d]),
                         _ => None,
                     };
@@ -120,14 +120,14 @@ impl ThroatView<'_> {
     /// Width of the throat along an axis: the longest parallel chord whose half length is at least its distance from the
     /// voxel. In a round section that is the diameter. Chords displaced along the throat's own axis, the longest chord, do
     /// not count.
-    fn throat_width(&self, place: VoxelPlace, axis: usize, lengths: &[f64; 3]) -> f64 {
+    fn throat_width(&self, address: VoxelAddress, axis: usize, lengths: &[f64; 3]) -> f64 {
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let mut widest = lengths[axis];
         for beside in others(axis).into_iter().filter(|&b| lengths[b] < longest) {
             for up in [false, true] {
-                let (mut at, mut previous) = (place, lengths[axis]);
+                let (mut at, mut previous) = (address, lengths[axis]);
                 let mut offset = 0.5 * self.thickness(at, beside);
-                while let Some(next) = self.next_place(at, beside, up) {
+                while let Some(next) = self.next_address(at, beside, up) {
                     let length = self.chords.length(self.lattice, next, axis, self.gap);
                     if length > MAX_WIDENING * previous {
                         break;
@@ -143,16 +143,16 @@ impl ThroatView<'_> {
         widest
     }
 
-    /// Thickness of a voxel place along an axis, voxels: the gap is a single place at each x and z.
-    fn thickness(&self, place: VoxelPlace, axis: usize) -> f64 {
-        match place {
-            VoxelPlace::Gap(_) if axis == 1 => self.gap,
+    /// Thickness of an addressed voxel along an axis, voxels: at each x and z the gap is one address.
+    fn thickness(&self, address: VoxelAddress, axis: usize) -> f64 {
+        match address {
+            VoxelAddress::Gap(_) if axis == 1 => self.gap,
             _ => 1.0,
         }
     }
 
-    /// The next open place along an axis.
-    fn next_place(&self, place: VoxelPlace, axis: usize, up: bool) -> Option<VoxelPlace> {
+    /// The next open address along an axis.
+    fn next_address(&self, address: VoxelAddress, axis: usize, up: bool) -> Option<VoxelAddress> {
         let [nx, nz] = self.lattice.layer_size();
         let shifted = |at: usize| {
             let (i, n, stride) = match axis {
@@ -169,24 +169,24 @@ impl ThroatView<'_> {
             }
         };
         let beyond = |layer: usize, away: bool| layer.checked_add_signed(if away { 1 } else { -1 });
-        let next = match (place, axis, up) {
-            (VoxelPlace::Gap(at), 1, true) => VoxelPlace::Above(0, at),
-            (VoxelPlace::Gap(at), 1, false) => VoxelPlace::Below(0, at),
-            (VoxelPlace::Below(0, at), 1, true) | (VoxelPlace::Above(0, at), 1, false)
+        let next = match (address, axis, up) {
+            (VoxelAddress::Gap(at), 1, true) => VoxelAddress::Above(0, at),
+            (VoxelAddress::Gap(at), 1, false) => VoxelAddress::Below(0, at),
+            (VoxelAddress::Below(0, at), 1, true) | (VoxelAddress::Above(0, at), 1, false)
                 if self.lattice.moving.is_some() =>
             {
-                VoxelPlace::Gap(at)
+                VoxelAddress::Gap(at)
             }
-            (VoxelPlace::Below(layer, at), 1, up) => VoxelPlace::Below(beyond(layer, !up)?, at),
-            (VoxelPlace::Above(layer, at), 1, up) => VoxelPlace::Above(beyond(layer, up)?, at),
-            (VoxelPlace::Gap(at), ..) => VoxelPlace::Gap(shifted(at)?),
-            (VoxelPlace::Below(layer, at), ..) => VoxelPlace::Below(layer, shifted(at)?),
-            (VoxelPlace::Above(layer, at), ..) => VoxelPlace::Above(layer, shifted(at)?),
+            (VoxelAddress::Below(layer, at), 1, up) => VoxelAddress::Below(beyond(layer, !up)?, at),
+            (VoxelAddress::Above(layer, at), 1, up) => VoxelAddress::Above(beyond(layer, up)?, at),
+            (VoxelAddress::Gap(at), ..) => VoxelAddress::Gap(shifted(at)?),
+            (VoxelAddress::Below(layer, at), ..) => VoxelAddress::Below(layer, shifted(at)?),
+            (VoxelAddress::Above(layer, at), ..) => VoxelAddress::Above(layer, shifted(at)?),
         };
         let code = match next {
-            VoxelPlace::Gap(at) => self.lattice.gap.get(at),
-            VoxelPlace::Below(layer, at) => self.lattice.below.get(layer).and_then(|l| l.get(at)),
-            VoxelPlace::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
+            VoxelAddress::Gap(at) => self.lattice.gap.get(at),
+            VoxelAddress::Below(layer, at) => self.lattice.below.get(layer).and_then(|l| l.get(at)),
+            VoxelAddress::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
         };
         (code == Some(&OPEN)).then_some(next)
     }

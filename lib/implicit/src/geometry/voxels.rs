@@ -2,7 +2,7 @@
 
 use physics::Boundary;
 
-use super::chords::VoxelPlace;
+use super::chords::VoxelAddress;
 use super::lattice::{Lattice, MIRROR, OPEN};
 use super::mesh::{Face, Mesh, Pore, others};
 use super::rows::RowKind;
@@ -22,12 +22,12 @@ type VoxelAt = (usize, [usize; 3]);
 
 impl Mesh {
     /// Lattice address of a voxel of the cell with indices x, y, z; `None` beyond the lattice.
-    pub(crate) fn lattice_place(
+    pub(crate) fn lattice_address(
         &self,
         lattice: &Lattice,
         [x, y, z]: [usize; 3],
         voxel: [usize; 3],
-    ) -> Option<VoxelPlace> {
+    ) -> Option<VoxelAddress> {
         let across = lattice.layer_size();
         let sub =
             |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.ghost_layers[a] * self.k);
@@ -41,12 +41,12 @@ impl Mesh {
         match rows.kind(row) {
             RowKind::Below => {
                 let layer = (rows.below - 1 - row) * self.k + (self.k - 1 - b);
-                (layer < lattice.below.len()).then_some(VoxelPlace::Below(layer, at))
+                (layer < lattice.below.len()).then_some(VoxelAddress::Below(layer, at))
             }
-            RowKind::Gap => Some(VoxelPlace::Gap(at)),
+            RowKind::Gap => Some(VoxelAddress::Gap(at)),
             RowKind::Above => {
                 let layer = (row - rows.below - rows.gap) * self.k + b;
-                (layer < lattice.above.len()).then_some(VoxelPlace::Above(layer, at))
+                (layer < lattice.above.len()).then_some(VoxelAddress::Above(layer, at))
             }
         }
     }
@@ -91,10 +91,10 @@ impl Mesh {
 
     /// Code of a voxel of a cell, looked up in the lattice.
     pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
-        match self.lattice_place(lattice, self.place(cell), voxel) {
-            Some(VoxelPlace::Below(layer, at)) => lattice.below[layer][at],
-            Some(VoxelPlace::Gap(at)) => lattice.gap[at],
-            Some(VoxelPlace::Above(layer, at)) => lattice.above[layer][at],
+        match self.lattice_address(lattice, self.cell_indices(cell), voxel) {
+            Some(VoxelAddress::Below(layer, at)) => lattice.below[layer][at],
+            Some(VoxelAddress::Gap(at)) => lattice.gap[at],
+            Some(VoxelAddress::Above(layer, at)) => lattice.above[layer][at],
             None if self.boundary[1] == Boundary::Open || self.is_ghost(cell) => OPEN,
             None => MIRROR,
         }
@@ -172,8 +172,8 @@ impl Mesh {
         (code != MIRROR).then_some(code != OPEN)
     }
 
-    /// s of docs/methods.md section 3.5: whether the wall that bounds an open voxel along `t` ends in a step along `across`,
-    /// 1 within a cell, 0 from 1.5 cells on, linear between.
+    /// s of docs/methods.md section 3.5: 1 if the wall that bounds an open voxel along `t` ends in a step within a cell along
+    /// `across`, 0 from 1.5 cells on, linear between.
     pub(crate) fn step_proximity(&self, start: VoxelAt, [t, across]: [usize; 2], up: bool) -> f64 {
         let is_wall = |at: VoxelAt| self.is_wall(at);
         let mut nearest = f64::INFINITY;

@@ -34,15 +34,15 @@ impl GridOrigin {
 pub(crate) fn deposit(
     mesh: &Mesh,
     points: &Points,
-    place: GridOrigin,
+    origin: GridOrigin,
     value: impl Fn(&Seed) -> f64,
 ) -> Result<Vec<f64>, String> {
     let mut sums = vec![0.0; mesh.pores.len()];
     let sides = [0, 1, 2].map(|axis| sides(mesh, axis));
     for (index, point) in points.seeds().enumerate() {
         let at: [f64; 3] =
-            std::array::from_fn(|a| (point.position[a] - place.origin_m[a]) / place.cell_m);
-        let half = place.half(point.volume);
+            std::array::from_fn(|a| (point.position[a] - origin.origin_m[a]) / origin.cell_m);
+        let half = origin.half(point.volume);
         spread(mesh, &sides, at, half, value(&point), &mut sums).ok_or_else(|| {
             format!("liquid point {index} lies in a rigid body or outside the domain")
         })?;

@@ -29,7 +29,7 @@ pub(crate) fn remapped_region(
     let [nx, _, nz] = old.size;
     let mut region = Region::new([nx, range.len(), nz], false);
     for cell in (0..old.size.iter().product()).filter(|&cell| wet.contains(cell)) {
-        let [x, _, z] = old.place(cell);
+        let [x, _, z] = old.cell_indices(cell);
         let row = old.row(cell);
         // Of a gap that has closed, the rows next to it.
         let rows = match old.rows().kind(row) {
@@ -63,7 +63,7 @@ impl FaceMap {
         };
         let inner = old.region.inner(old.periodic());
         let old_cell = |pore: usize| {
-            let [x, _, z] = new.place(new.cell(pore));
+            let [x, _, z] = new.cell_indices(new.cell(pore));
             let row = new.row_of(pore);
             let cell = old.cell_at([x, same_row(new, old, row)?, z]);
             let whole = inner.contains(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
@@ -176,7 +176,7 @@ fn combined(
     values: &[f64],
     combine: impl Fn(&mut dyn Iterator<Item = (f64, f64)>) -> f64,
 ) -> f64 {
-    let [x, y, z] = new.place(cell);
+    let [x, y, z] = new.cell_indices(cell);
     let value = |y: usize| at(old.cell_at([x, y, z])).map_or(0.0, |at| values[at]);
     combine(&mut rows[y].iter().map(|&(y, part)| (part, value(y))))
 }
@@ -208,7 +208,7 @@ fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
 
 /// The pores directly above and below a pore of a gap that has closed, once for each voxel.
 fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
-    let [x, _, z] = old.place(old.cell(pore));
+    let [x, _, z] = old.cell_indices(old.cell(pore));
     let mut found = Vec::new();
     for (row, voxel_row) in [
         (new.rows().below.wrapping_sub(1), new.k - 1),

@@ -54,7 +54,7 @@ impl Implicit {
             }
             shown.push(pore);
             let cell = mesh.cell(pore);
-            let at = mesh.place(cell);
+            let at = mesh.cell_indices(cell);
             let low = [
                 at[0] as f64 - mesh.ghost_layers[0] as f64,
                 mesh.rows().low(mesh.row(cell)),

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, VoxelPlace, others};
+use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, VoxelAddress, others};
 use crate::liquid::FaceMap;
 
 use super::coupling::WallCoupling;
@@ -97,11 +97,11 @@ impl Channels<'_> {
     fn depends_on_gap(&self, face: usize) -> bool {
         let mesh = self.mesh;
         let through = |pore: usize| {
-            let place = mesh.place(mesh.cell(pore));
+            let indices = mesh.cell_indices(mesh.cell(pore));
             let voxels = mesh.voxels(pore);
             voxels
-                .filter_map(|voxel| mesh.lattice_place(self.lattice, place, voxel))
-                .any(|place| self.chords.through_gap(self.lattice, place))
+                .filter_map(|voxel| mesh.lattice_address(self.lattice, indices, voxel))
+                .any(|address| self.chords.through_gap(self.lattice, address))
         };
         mesh.touches_gap(face) || mesh.faces[face].pores().into_iter().any(through)
     }
@@ -113,7 +113,9 @@ impl Channels<'_> {
             ..WallCoupling::default()
         };
         let f = self.mesh.faces[face];
-        let places = f.pores().map(|pore| self.mesh.place(self.mesh.cell(pore)));
+        let cell_indices = f
+            .pores()
+            .map(|pore| self.mesh.cell_indices(self.mesh.cell(pore)));
         let axis = usize::from(f.axis);
         if self.influence_length.is_infinite() {
             return coupling.with(|value| value as f32);
@@ -123,17 +125,17 @@ impl Channels<'_> {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column((face, clear), places, (t, r), &mut coupling);
+                self.column((face, clear), cell_indices, (t, r), &mut coupling);
             }
         }
         coupling.with(|value| value as f32)
     }
 
-    /// Adds the walls at both ends of voxel column `r` along `t` of a face. `places` are the indices of its two cells.
+    /// Adds the walls at both ends of voxel column `r` along `t` of a face. `cell_indices` are those of its two cells.
     fn column(
         &self,
         (face, clear): (usize, bool),
-        places: [[usize; 3]; 2],
+        cell_indices: [[usize; 3]; 2],
         (t, r): (usize, usize),
         coupling: &mut WallCoupling,
     ) {
@@ -169,8 +171,9 @@ impl Channels<'_> {
         for (half, cell) in cells.into_iter().enumerate() {
             let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
-            let place = mesh.lattice_place(self.lattice, places[half], voxel(half, first));
-            let width = |a: usize| self.width(place, a) / edges[t];
+            let address =
+                mesh.lattice_address(self.lattice, cell_indices[half], voxel(half, first));
+            let width = |a: usize| self.width(address, a) / edges[t];
             let part = 0.5 * edges[axis] * edges[across] / k as f64;
             let along = width(t);
             coupling.inverse_width_squared += part / (along * along * edges[t] * edges[t]);
@@ -222,11 +225,11 @@ impl Channels<'_> {
     }
 
     /// Channel width along an axis at a voxel, cells.
-    fn width(&self, place: Option<VoxelPlace>, axis: usize) -> f64 {
+    fn width(&self, address: Option<VoxelAddress>, axis: usize) -> f64 {
         let k = self.mesh.k as f64;
         let gap = self.mesh.rows().height * k;
-        let length = |place: VoxelPlace| self.chords.length(self.lattice, place, axis, gap);
-        (place.map_or(f64::INFINITY, length) / k).max(0.25)
+        let length = |address: VoxelAddress| self.chords.length(self.lattice, address, axis, gap);
+        (address.map_or(f64::INFINITY, length) / k).max(0.25)
     }
 
     /// Effective distance d_w of a column from its walls, which makes the flux of plane Poiseuille flow exact for every open

@@ -68,16 +68,17 @@ impl<'a> Profile<'a> {
         for face in mesh.faces_at(pore, axis, up) {
             let open = mesh.faces[face].open;
             let slopes = self.slopes.get(face).copied().unwrap_or_default();
-            let at = |place: usize| [place % k, place / k].map(|i| i as f64 / k as f64);
-            let places = (0..k * k).filter(|place| open >> place & 1 == 1);
-            let middle = places.clone().map(at).fold([0.0; 2], |sum, at| {
+            let at = |column: usize| [column % k, column / k].map(|i| i as f64 / k as f64);
+            let columns = (0..k * k).filter(|column| open >> column & 1 == 1);
+            let middle = columns.clone().map(at).fold([0.0; 2], |sum, at| {
                 let count = f64::from(open.count_ones());
                 [sum[0] + at[0] / count, sum[1] + at[1] / count]
             });
-            for place in places {
-                let off = |i: usize| mesh.edge(pore, across[i]) * (at(place)[i] - middle[i]);
+            for column in columns {
+                let off = |i: usize| mesh.edge(pore, across[i]) * (at(column)[i] - middle[i]);
                 let departure = slopes[0] * off(0) + slopes[1] * off(1);
-                side[place] = (self.flow.moves(face)).then(|| self.flow.velocity[face] + departure);
+                side[column] =
+                    (self.flow.moves(face)).then(|| self.flow.velocity[face] + departure);
             }
         }
         side

@@ -54,7 +54,7 @@ fn inclination(
     up: bool,
 ) -> f64 {
     let k = mesh.k as i64;
-    let [x, _, z] = mesh.place(cell);
+    let [x, _, z] = mesh.cell_indices(cell);
     let row = mesh.row(cell) as i64 - mesh.rows().below as i64;
     let cells = [
         x as i64 - mesh.ghost_layers[0] as i64,
@@ -74,8 +74,8 @@ fn inclination(
                 from_face[axis] += if up { -0.5 } else { 0.5 };
                 let square = from_face.iter().map(|d| d * d).sum::<f64>();
                 let weight = 1.0 - square / (radius * radius);
-                let place = std::array::from_fn(|a| at[a] + offset[a]);
-                if weight > 0.0 && is_open(lattice, mesh.rows().gap as i64 * k, place) {
+                let voxel_at = std::array::from_fn(|a| at[a] + offset[a]);
+                if weight > 0.0 && is_open(lattice, mesh.rows().gap as i64 * k, voxel_at) {
                     (0..3).for_each(|a| centroid[a] += weight * from_face[a]);
                 }
             }
