@@ -77,11 +77,11 @@ impl FaceMap {
             let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
             let index = face - new.faces_of(cell, axis).start;
             let old_face = old.faces_of(low.0, axis).nth(index)?;
-            let depends_on_gap = new.touches_gap(face) || old.touches_gap(old_face);
+            let touches_gap = new.touches_gap(face) || old.touches_gap(old_face);
             let periodic = new.boundary[1] == Boundary::Periodic;
             Some((
                 old_face as u32,
-                low.1 && high.1 && !depends_on_gap && !periodic,
+                low.1 && high.1 && !touches_gap && !periodic,
             ))
         };
         Self((0..new.faces.len()).into_par_iter().map(found).collect())

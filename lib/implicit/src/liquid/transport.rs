@@ -35,7 +35,7 @@ pub(crate) struct Moved {
 /// Advects the liquid `volumes` (at zero pressure) and their `water` (may be empty) by the face velocities over `dt`, into
 /// pores that can hold `capacities`. The flux out of a `full` pore is u a dt. Out of a partly filled one it has the fraction
 /// of the donor, or, where the surface lies across the flow, that of the acceptor until the donor's air is used up (Hirt &
-/// Nichols 1981, 10.1016/0021-9991(81)90145-5). No pore passes on more than it holds.
+/// Nichols 1981, 10.1016/0021-9991(81)90145-5), and is never more than the donor holds.
 pub(crate) fn transport(
     mesh: &Mesh,
     [volumes, water]: [&[f64]; 2],
@@ -180,14 +180,14 @@ fn donor_acceptor(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f6
     // Difference of the fraction along the flow, from the pore behind the donor to the acceptor.
     let change = sign * gradient[axis];
     let behind = ahead - change;
-    let aside = (0..3)
+    let transverse = (0..3)
         .filter(|&a| a != axis)
         .map(|a| gradient[a] * gradient[a])
         .sum::<f64>()
         .sqrt();
     // Air with liquid on both sides is a bubble, not a surface, and is left behind.
     let hole = own <= ahead && own <= behind;
-    if hole || change == 0.0 || change.abs() < MIN_NORMAL * aside {
+    if hole || change == 0.0 || change.abs() < MIN_NORMAL * transverse {
         return own * swept;
     }
     let volume = mesh.volume(donor);

@@ -131,7 +131,7 @@ impl Implicit {
 
     /// Height of the gap in the middle of a step of `dt` (s), cells: as assumed, and by the speed found.
     fn mid_heights(&self, middle: &MidStep, solved: &Solved, dt: f64) -> [f64; 2] {
-        [middle.closing, solved.flow.speed].map(|closing| self.middle_height(dt, closing))
+        [middle.closing_speed, solved.flow.speed].map(|closing| self.middle_height(dt, closing))
     }
 
     /// Solves the flow with the clamp at full speed, or at the speed of its pressure limit, from a given `middle` of the step.

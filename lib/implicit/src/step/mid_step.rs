@@ -16,8 +16,8 @@ const MAX_OVERFILL: f64 = 0.03;
 pub(super) struct MidStep {
     pub(super) dt: f64,
     /// Closing speed that sets the gap's height, cells/s, and the height of the gap at the end of the step by it, cells.
-    pub(super) closing: f64,
-    pub(super) end: f64,
+    pub(super) closing_speed: f64,
+    pub(super) end_height: f64,
     /// Which pores are full at the start of the step, or count so.
     pub(super) full: Vec<bool>,
     /// Volume fraction of each pore.
@@ -75,8 +75,8 @@ impl Implicit {
         let cure = self.setup.liquid.cure.as_ref();
         MidStep {
             dt,
-            closing,
-            end,
+            closing_speed: closing,
+            end_height: end,
             full,
             fractions,
             halves,

@@ -45,6 +45,7 @@ impl Implicit {
         solved
     }
 
+    /// As [`Self::solve_driven`], with the clock apart from `self`.
     fn iterate(
         &self,
         middle: &MidStep,
@@ -165,7 +166,7 @@ impl Implicit {
             viscosities,
             before: &state.flow.velocity,
             speed_before: state.flow.speed,
-            end_height: middle.end,
+            end_height: middle.end_height,
             fronts: &fronts,
             pockets: air.map_or(&[], |air| &air.pockets),
             coefficients: setup.coefficients(dt),
@@ -177,7 +178,7 @@ impl Implicit {
             volumes: &state.volumes,
             pressure: &state.flow.pressure,
             full,
-            heights: [self.height, middle.end],
+            heights: [self.height, middle.end_height],
             times: [dt, self.cell_crossing_time()],
         };
         let mut excess_rate = compression.release_rates(&unknowns.pores, &start.pressure);

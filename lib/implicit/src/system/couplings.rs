@@ -67,8 +67,8 @@ impl WallCouplings {
             .par_iter_mut()
             .enumerate()
             .for_each(|(face, coupling)| {
-                let mut ends = channels.mesh.faces[face].pores().into_iter();
-                if coupling.depends_on_gap && ends.any(|pore| fractions[pore] > 0.0) {
+                let mut pores = channels.mesh.faces[face].pores().into_iter();
+                if coupling.depends_on_gap && pores.any(|pore| fractions[pore] > 0.0) {
                     *coupling = channels.coupling(face, !coupling.walled, true);
                 }
             });

@@ -48,17 +48,17 @@ impl<'a> ViscosityIteration<'a> {
     pub(crate) fn update(&mut self, rates: Rates, power: Vec<f64>) -> bool {
         let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
-        let pass = Evaluation { used, rates, power };
-        let settled = pass.change(&by_law) < CONVERGED;
+        let latest = Evaluation { used, rates, power };
+        let converged = latest.change(&by_law) < CONVERGED;
         self.used = match &self.previous {
             Some(before) => {
-                self.response = pass.response(before, self.response);
-                pass.extrapolated(self.liquid, self.factor, self.slip, self.response)
+                self.response = latest.response(before, self.response);
+                latest.extrapolated(self.liquid, self.factor, self.slip, self.response)
             }
             None => by_law,
         };
-        self.previous = Some(pass);
-        settled
+        self.previous = Some(latest);
+        converged
     }
 }
 
@@ -90,8 +90,7 @@ impl Evaluation {
     fn response(&self, before: &Self, previous: f64) -> f64 {
         let (mut covariance, mut variance, mut weight) = (0.0, 0.0, 0.0);
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
-            let [old, new] =
-                [before, self].map(|pass| [pass.used.pores[pore], pass.rates.pores[pore]]);
+            let [old, new] = [before, self].map(|of| [of.used.pores[pore], of.rates.pores[pore]]);
             if old[1] > 0.0 {
                 let [eta, rate] = [0, 1].map(|i| (new[i] / old[i]).ln());
                 covariance += power * eta * rate;
