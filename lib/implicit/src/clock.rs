@@ -26,17 +26,17 @@ const NAMES: [&str; 7] = [
     "transport",
 ];
 
-/// Time spent so far.
+/// Wall time of each part so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Clock([Duration; 7]);
 
 impl Clock {
-    /// Counts what a part took that began at an instant.
+    /// Adds the time since `begun` to a part.
     pub(crate) fn add(&mut self, part: Stage, begun: Instant) {
         self.0[part as usize] += begun.elapsed();
     }
 
-    /// Times of the parts, that of the loss of water where the liquid holds `water`.
+    /// Times of the parts; the loss of water is one where the liquid holds `water`.
     pub(crate) fn report(&self, water: bool) -> Vec<StageTime> {
         (NAMES.into_iter().zip(&self.0))
             .filter(|(name, _)| water || *name != NAMES[Stage::Water as usize])

@@ -1,10 +1,11 @@
-//! The implicit scheme: liquid as volume fractions on a staggered grid whose rows close with the press.
+//! The implicit scheme (docs/methods.md section 3): volume fractions on a staggered grid whose rows close with the press.
 //!
-//! Inside, lengths are in cells, velocities in cells a second, and pressures are divided by the unit of viscosity.
-//! The parts in the order in which they use one another: `geometry` (voxels, rows, pores and the faces between them),
-//! `liquid` (volumes in pores and how they move), `air` (what it closes off), `system` (unknowns and equations of one
-//! step), `water` (what walls take of it), `step` (the order of a step),
-//! `permeability` (steady flow by the same equations).
+//! Control volumes are *pores*, connected open voxels of a cell; *faces* between them carry a velocity. Units inside the
+//! crate: cells, seconds, viscosities over the unit eta_0, pressures and forces over eta_0/s.
+//!
+//! Modules in the order in which they use one another: `geometry` (voxels, rows, pores, faces), `liquid` (volumes in pores
+//! and their advection), `air` (pockets closed off by liquid), `system` (unknowns and equations of a step), `water` (loss
+//! of water to walls), `step` (the order of a step), `permeability` (steady flow by the same equations).
 
 mod air;
 mod clock;

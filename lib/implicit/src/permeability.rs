@@ -1,46 +1,47 @@
-//! Permeability of voxels: steady flow through them by the operator of a step, under a difference of pressure.
+//! Permeability of a voxel volume: steady flow under a pressure difference, by the operator of a step without inertia
+//! (docs/methods.md section 4).
 
 use physics::{Boundary, VoxelBlock};
 use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 
 use crate::geometry::{Chords, Lattice, Mesh};
-use crate::liquid::Kept;
-use crate::settings::MISSED;
+use crate::liquid::FaceMap;
+use crate::settings::ITERATION_TOLERANCE;
 use crate::system::{
-    Channels, Edges, Fronts, Links, Problem, Scales, Unknowns, Viscosities, masses, resistance,
-    stiffnesses,
+    Channels, Coefficients, Edges, Fronts, Problem, Unknowns, Viscosities, WallCouplings, masses,
+    resistance, stiffnesses,
 };
 
-/// Relative residual of the solve, a tenth of what a step may miss: the flux is within a tenth of it.
-const TOLERANCE: f64 = 0.1 * MISSED;
-/// Iterations of the solve at most, so that one that stagnates ends: more than in a step, which the next one goes on from.
+/// Relative residual of the solve. The error of the flux is a tenth of it.
+const TOLERANCE: f64 = 0.1 * ITERATION_TOLERANCE;
+/// Bound on solver iterations, for solves that stagnate. Larger than in a step, since no later solve continues this one.
 const ITERATIONS: usize = 500;
 
-/// A permeability and what it was found from.
+/// A permeability, its error estimate and the open volume behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Permeability {
-    /// That of the flow in cells of one voxel, m2.
+    /// Permeability found with cells of one voxel, m2.
     pub m2: f64,
-    /// That in cells of two voxels, m2.
+    /// Permeability found with cells of two voxels, m2.
     pub coarse_m2: f64,
     /// Share of the volume that is open.
     pub porosity: f64,
-    /// Share of it through which liquid flows from side to side.
+    /// Share of the open volume that is connected to both sides.
     pub through: f64,
 }
 
 impl Permeability {
-    /// What is to be thought of as the error of `m2`, m2: its distance from that in cells of two voxels.
+    /// Error estimate of `m2`, m2: its difference from the coarse value.
     pub fn error_m2(&self) -> f64 {
         (self.m2 - self.coarse_m2).abs()
     }
 }
 
-/// Permeability along `axis` (0 to 2) of what `solid` leaves open, all of it full of liquid that sticks to the walls, between two
-/// sides at constant pressures that it crosses at right angles, as if the specimen and its mirror image took turns. The other
-/// `sides` are mirrors or periodic. A last layer of an odd number of voxels is left out.
+/// Permeability along `axis` (0 to 2) of the open voxels of `solid`, full of liquid that sticks to the walls. The specimen and
+/// its mirror image alternate along the axis, so both sides have constant pressure and normal flow. The other `sides` are
+/// mirrors or periodic. The last layer of an odd number of voxels is left out.
 ///
-/// Darcy: flux over area = permeability x difference of pressure/(viscosity x length). 0 where nothing leads through.
+/// Darcy: flux over area = permeability x pressure difference/(viscosity x length). 0 where no open voxels connect the sides.
 ///
 /// # Errors
 /// Voxels that are no cubes, sides that are open, fewer than two voxels along an axis; a flow that was not solved.
@@ -75,25 +76,25 @@ pub fn permeability(
     let (open, through) = (volume(&|_| 1.0), volume(&|pore| fine.fractions[pore]));
     Ok(Permeability {
         m2: fine.squares()? * m2,
-        // Cells of two voxels have an edge of two.
+        // In squares of the edge of a cell, which is two voxels.
         coarse_m2: 4.0 * coarse.squares()? * m2,
         porosity: open / fine.cells(),
         through: if open > 0.0 { through / open } else { 0.0 },
     })
 }
 
-/// Voxels and their mirror image behind them, in cells of `k` voxels.
+/// The specimen followed by its mirror image, in cells of `k` voxels.
 struct Through {
     axis: usize,
     lattice: Lattice,
     mesh: Mesh,
-    /// 1 of pores that a way leads through from side to side.
+    /// Volume fraction of each pore: 1 where it is connected to both sides, else 0.
     fractions: Vec<f64>,
 }
 
 impl Through {
     fn new(solid: &VoxelBlock, axis: usize, sides: Boundary, k: usize) -> Self {
-        // Both sizes of cells see the same voxels.
+        // An even number of voxels, so that both cell sizes cover the same ones.
         let size = solid.dims().map(|n| n / 2 * 2 / k);
         let lattice = Lattice::of_voxels(solid, k, size, axis, sides);
         let rows = lattice.rows();
@@ -111,7 +112,7 @@ impl Through {
         self.mesh.size.iter().product::<usize>() as f64
     }
 
-    /// Permeability in squares of the edge of a cell: the mean flux of steady flow at a unit of pressure per cell and of viscosity.
+    /// Permeability in squares of the edge of a cell: the mean velocity at unit pressure gradient and unit viscosity.
     fn squares(&self) -> Result<f64, String> {
         match self.fractions.iter().any(|&fraction| fraction > 0.0) {
             true => Ok(self.flux()? / self.cells()),
@@ -119,7 +120,7 @@ impl Through {
         }
     }
 
-    /// Sum of the fluxes through all sections.
+    /// Sum over all cross-sections of the flux along the axis at unit pressure gradient.
     fn flux(&self) -> Result<f64, String> {
         let (mesh, lattice, fractions) = (&self.mesh, &self.lattice, &self.fractions);
         let channels = Channels {
@@ -128,17 +129,18 @@ impl Through {
             mesh,
             influence_length: 0.0,
         };
-        let links = Links::new(&channels, &Kept::default(), &Links::default());
+        let couplings =
+            WallCouplings::new(&channels, &FaceMap::default(), &WallCouplings::default());
         let unknowns = Unknowns::new(mesh, fractions, &vec![false; mesh.pores.len()]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
-            .map(|face| face.ends().map(|pore| fractions[pore]))
+            .map(|face| face.pores().map(|pore| fractions[pore]))
             .collect();
         let viscosities = Viscosities::constant(mesh, 1.0);
         let problem = Problem {
             lattice,
             mesh,
-            links: &links,
-            edges: &Edges::new(mesh, lattice, &Kept::default(), &Edges::default()),
+            couplings: &couplings,
+            edges: &Edges::new(mesh, lattice, &FaceMap::default(), &Edges::default()),
             unknowns: &unknowns,
             fractions,
             halves: &halves,
@@ -150,9 +152,9 @@ impl Through {
             end_height: 0.0,
             fronts: &Fronts::default(),
             pockets: &[],
-            scales: Scales {
+            coefficients: Coefficients {
                 dt: f64::INFINITY,
-                ..Scales::default()
+                ..Coefficients::default()
             },
         };
         let (a, g) = problem
@@ -160,24 +162,24 @@ impl Through {
             .and_then(|a| Ok((a, problem.outflow()?)))
             .map_err(|e| e.to_string())?;
         let faces = || unknowns.faces.iter().map(|&face| face as usize);
-        // A pressure that falls by a unit a cell pushes: what is solved for is what pressures differ from it.
-        let push = |face: usize| match usize::from(mesh.faces[face].axis) == self.axis {
+        // The mean pressure falls by a unit a cell and drives the flow; the unknown p is the deviation from it.
+        let driving = |face: usize| match usize::from(mesh.faces[face].axis) == self.axis {
             true => mesh.area(face),
             false => 0.0,
         };
-        let push: Vec<f64> = faces().map(push).collect();
+        let driving: Vec<f64> = faces().map(driving).collect();
         let friction: Vec<f64> = faces().map(|face| resistance(&problem, face)).collect();
-        let (mut u, mut p) = (vec![0.0; push.len()], vec![0.0; unknowns.pores.len()]);
+        let (mut u, mut p) = (vec![0.0; driving.len()], vec![0.0; unknowns.pores.len()]);
         let none = vec![0.0; p.len()];
         let system = SaddleSystem {
             a: &a,
             g: &g,
             pockets: 0,
-            // Next to none, so that there is one mean pressure.
+            // A tiny compressibility fixes the mean pressure, which is otherwise undetermined.
             c: &vec![TOLERANCE * TOLERANCE; p.len()],
             friction: &friction,
             two_eta: &vec![2.0; p.len()],
-            b: &push,
+            b: &driving,
             standing: &[],
             clinging: &[],
             slow: 0.0,
@@ -190,30 +192,30 @@ impl Through {
         });
         let solved = solver.solve(&system, &mut u, &mut p);
         solved.map_err(|e| e.to_string())?;
-        Ok(push.iter().zip(&u).map(|(push, u)| push * u).sum())
+        Ok(driving.iter().zip(&u).map(|(driving, u)| driving * u).sum())
     }
 }
 
-/// 1 for pores through which a way leads from side to side of the voxels along `axis` without their mirror image, or of that
-/// image; 0 for others.
+/// Volume fractions: 1 for pores that are connected to both sides along `axis` within the specimen, or within its mirror image;
+/// else 0.
 fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let n = mesh.size[axis];
-    let layer = |pore: usize| mesh.place(mesh.cell(pore))[axis];
+    let layer = |pore: usize| mesh.cell_indices(mesh.cell(pore))[axis];
     let reached = |sides: [usize; 2]| {
-        let mut seen: Vec<bool> = (0..mesh.pores.len())
+        let mut found: Vec<bool> = (0..mesh.pores.len())
             .map(|pore| sides.contains(&layer(pore)))
             .collect();
-        let mut next: Vec<usize> = (0..seen.len()).filter(|&pore| seen[pore]).collect();
+        let mut next: Vec<usize> = (0..found.len()).filter(|&pore| found[pore]).collect();
         while let Some(pore) = next.pop() {
-            for other in mesh.ways(pore).map(|way| way.beside) {
+            for other in mesh.neighbours(pore).map(|neighbour| neighbour.pore) {
                 let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);
-                if !seen[other] && !mirrored {
-                    seen[other] = true;
+                if !found[other] && !mirrored {
+                    found[other] = true;
                     next.push(other);
                 }
             }
         }
-        seen
+        found
     };
     let (low, high) = (reached([0, n - 1]), reached([n / 2 - 1, n / 2]));
     let both = low.iter().zip(high).map(|(low, high)| *low && high);

@@ -3,13 +3,13 @@
 use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 
 use crate::settings::Settings;
-use crate::step::THICKENS;
+use crate::step::LN_VISCOSITY_STEP;
 
-/// Speed of the liquid that sets the step over that of the body that drives it, averaged over a run: 1.6 to 1.8 where wood
-/// closes on a slab.
+/// Ratio of the liquid speed that sets the time step to the closing speed, averaged over a run: 1.6 to 1.8 where wood closes
+/// on a slab.
 const SPEED_RATIO: f64 = 1.8;
 /// Processor seconds per unknown and step, as measured with 70 to 700 thousand unknowns.
-const SECONDS: f64 = 4e-6;
+const CPU_S_PER_UNKNOWN: f64 = 4e-6;
 /// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the domain (pores, faces, friction of walls), per voxel
 /// (codes, what measures the bond), and of the process, as measured with 9 thousand to 1.6 million unknowns.
 const BYTES: [f64; 4] = [480.0, 40.0, 20.0, 10e6];
@@ -23,7 +23,7 @@ pub struct Plan {
     pub unknowns: f64,
     /// First time step, s.
     pub dt_s: f64,
-    /// Steps to the end if the clamp keeps its full speed; of a press programme far fewer than it takes.
+    /// Steps to the end at the clamp's full speed; a press programme takes far more.
     pub steps: f64,
     /// Memory, bytes.
     pub memory_bytes: f64,
@@ -43,17 +43,17 @@ impl Plan {
         };
         let cells: f64 = scene.grid.cells.iter().map(|&n| n as f64).product();
         let liquid_cells = amount.volume_m3 / h.powi(3);
-        // Surfaces add faces to the d per cell inside.
+        // A cell inside has one face an axis; surfaces add a tenth.
         let unknowns = liquid_cells * (1.0 + 1.1 * axes);
         let speed = scene.speed_with(amount);
         let dt_s = if speed > 0.0 {
             settings.cfl * h / speed
         } else {
-            let pull = scene.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
-            (2.0 * settings.cfl * h / pull).sqrt()
+            let gravity = scene.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            (2.0 * settings.cfl * h / gravity).sqrt()
         };
         let duration = match scene.stop {
-            // A clamp cannot go further than through the whole domain, however long it is held.
+            // A clamp travels no further than the height of the domain, however long it is held.
             Stop::Time(time) if scene.clamp.is_some() => {
                 time.min(scene.grid.cells[1] as f64 * h / speed)
             }
@@ -64,9 +64,10 @@ impl Plan {
         let duration = cure
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
-        let cured = cure.map_or(0.0, |cure| cure.change(duration) / THICKENS);
-        let dried = (scene.liquid.water.as_ref())
-            .map_or(0.0, |water| water.factor(water.least()).ln() / THICKENS);
+        let cured = cure.map_or(0.0, |cure| cure.change(duration) / LN_VISCOSITY_STEP);
+        let dried = (scene.liquid.water.as_ref()).map_or(0.0, |water| {
+            water.factor(water.least()).ln() / LN_VISCOSITY_STEP
+        });
         let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);
         let voxels: f64 = blocks
             .map(|block| block.dims().iter().map(|&n| n as f64).product::<f64>())
@@ -79,7 +80,7 @@ impl Plan {
             dt_s,
             steps,
             memory_bytes: BYTES[0] * unknowns + BYTES[1] * cells + BYTES[2] * voxels + BYTES[3],
-            cpu_s: steps * SECONDS * unknowns,
+            cpu_s: steps * CPU_S_PER_UNKNOWN * unknowns,
             stages: stages(scene),
         }
     }

@@ -1,11 +1,12 @@
 //! The choices that a case has.
 
-/// Cells that liquid crosses in a step at most, in jets too: the mesh ends two cells off the liquid.
+/// Largest Courant number of any face, jets included: the mesh reaches at least two cells beyond the liquid.
 pub(crate) const LARGEST_CFL: f64 = 1.5;
 
-/// Part by which a volume or a pressure may be off its law, and a step off the end of its travel, when passes end: the default
-/// tolerance of the solver. Nearer, steps would be solved again for what the solution does not know.
-pub(crate) const MISSED: f64 = 1e-3;
+/// Relative error at which the iterations of a step end: of volumes and pressures against their law, and of a step's length
+/// against the travel that is left. It equals the default solver tolerance; a smaller one would repeat solves for digits that
+/// the solution does not have.
+pub(crate) const ITERATION_TOLERANCE: f64 = 1e-3;
 
 /// Settings of the implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,11 +15,11 @@ pub struct Settings {
     pub cfl: f64,
     /// Relative residual of the coupled solve.
     pub tolerance: f64,
-    /// Absolute pressure of the air around, Pa: air that liquid closes off has pressures. `None`: all is at that around.
+    /// Absolute pressure of the ambient air, Pa, for pockets of air with a pressure of their own. `None`: all air is ambient.
     pub air_pressure: Option<f64>,
-    /// Time in which what a pocket of fixed volume has above that falls to 1/e of it, s.
+    /// Time in which the excess pressure of a pocket of fixed volume decays to 1/e through leaks, s.
     pub air_leak_time: f64,
-    /// What the cosine of the contact angle loses by each unit of the capillary number of a front that advances.
+    /// k of the dynamic contact angle: cos(theta_d) = cos(theta) - k Ca, Ca the capillary number of the front.
     pub dynamic_angle: f64,
 }
 
@@ -35,7 +36,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Says what is wrong with the settings, if anything.
+    /// Checks the settings.
     ///
     /// # Errors
     /// A sentence that names the setting and what would be accepted.

@@ -1,4 +1,4 @@
-//! Steady flow through voxels against closed forms and finer cells, and what it must not depend on.
+//! Permeability of voxel volumes against closed forms and finer cells, and its invariances.
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
@@ -85,8 +85,8 @@ fn tube(n: usize, diameter: f64, shift: [f64; 2]) -> impl Fn(usize, usize, usize
     move |u, v, _| off(u, shift[0]).hypot(off(v, shift[1])) >= 0.5 * diameter
 }
 
-/// Errors in cells of one voxel, of two and of a quarter against those of a quarter and an eighth, of which the error falls with
-/// the power `order`. Of two voxels along an axis nothing depends.
+/// Errors with cells of one voxel, two voxels and a quarter of a voxel, against the Richardson extrapolation of a quarter and an
+/// eighth, whose error has the given `order`. An axis of two voxels is not refined: nothing varies along it.
 fn against_finer(
     what: &str,
     dims: [usize; 3],
@@ -105,7 +105,7 @@ fn against_finer(
     errors
 }
 
-/// Along re-entrant edges differences have the error h^(4/3).
+/// Along re-entrant edges the discretisation error is of order h^(4/3).
 #[test]
 fn flow_along_tubes_of_voxels_is_that_of_finer_cells() {
     for diameter in [4.0, 6.0, 8.0, 12.0] {
@@ -118,7 +118,7 @@ fn flow_along_tubes_of_voxels_is_that_of_finer_cells() {
             // Tubes of six cells.
             assert!(diameter < 12.0 || two.abs() < 0.02);
         }
-        // Cells of two voxels join what is alike in them, on whichever side and along whichever axis it lies.
+        // Cells of two voxels give the same result on whichever side and along whichever axis the tube's axis is shifted.
         let of = |axis, x| along([n, n, 2], axis, tube(n, diameter, [x, 0.1])).coarse_m2;
         let [own, image, turned] = [(2, 0.3), (2, -0.3), (0, 0.3)].map(|(axis, x)| of(axis, x));
         println!(
@@ -130,7 +130,7 @@ fn flow_along_tubes_of_voxels_is_that_of_finer_cells() {
     }
 }
 
-/// Past corners differences have the error h^1.09.
+/// Past corners the discretisation error is of order h^1.09.
 #[test]
 fn flow_across_rods_of_voxels_is_that_of_finer_cells() {
     const PITCH: usize = 12;
@@ -165,12 +165,12 @@ fn channels_side_by_side_add_up_and_in_a_row_resist() {
         let resistance: f64 = [12_f64, 4.0].map(|w| 0.5 * 12.0 / w.powi(3)).iter().sum();
         let squares = (split * split) as f64 / resistance / 14.0;
         let [off, _] = errors("slits in a row", row, squares);
-        // The liquid has to come together besides: -2.1 % in voxels of a third.
+        // The contraction adds resistance: -2.1 % with voxels of a third of the size.
         assert!((off + 0.021).abs() < most);
     }
 }
 
-/// Grains at places without order.
+/// Grains at irregular positions.
 fn grain(u: usize, v: usize, w: usize) -> bool {
     let mixed = (u / 3 * 73 + v / 3 * 179 + w / 3 * 283) * 2_654_435_761 % 4099;
     mixed < 2000

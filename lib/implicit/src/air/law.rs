@@ -1,47 +1,51 @@
-//! Pressure of a pocket by its air and its volume, and the tangent that a step is solved with.
+//! The gas law of a pocket, p V = m with leaks, and its tangent, with which a step is solved (docs/methods.md section 3.13).
 
 use physics::{TAIT_C, Tait};
 
 use crate::geometry::DRIFT;
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 
-/// Largest ratio of the volumes that one tangent and the next are taken at, so that Newton's steps of V = m/p end from either side:
-/// larger ones overshoot, smaller ones take more passes.
-const STEEPEST: f64 = 4.0;
+/// Bound on the ratio of the volumes of successive tangents, which makes the Newton iteration on V = m/p converge from either
+/// side: a larger one overshoots, a smaller one takes more iterations.
+const MAX_VOLUME_RATIO: f64 = 4.0;
 
-/// The air of a run. Pressures are over a unit.
+/// The gas law of a run. Pressures are over the unit of viscosity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gas {
-    /// Absolute pressure outside.
+    /// Absolute ambient pressure.
     pub(crate) outside: f64,
-    /// Largest absolute pressure: that at which the liquid has lost the part C of its volume.
+    /// Largest absolute pressure: that of Tait's law at J = 1 - C.
     pub(crate) most: f64,
-    /// Time in which what a pocket of fixed volume has above that outside falls to 1/e of it, s; infinite where walls are tight.
+    /// Time in which the excess pressure of a pocket of fixed volume decays to 1/e, s; infinite where walls are tight.
     pub(crate) leak_time: f64,
 }
 
-/// A pocket's law near one volume: V_end = `volume` - `yielding` (p - `pressure`).
+/// The gas law of a pocket linearised about a volume: V_end = `volume` - `compliance` (p - `pressure`). Pressures are
+/// relative to ambient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Tangent {
-    /// Volume, cells.
+    /// Volume about which the law is linearised, cells.
     pub(crate) volume: f64,
-    /// Pressure above that outside.
+    /// Pressure at that volume.
     pub(crate) pressure: f64,
-    /// Cells per unit of pressure.
-    pub(crate) yielding: f64,
+    /// -dV/dp, cells per unit of pressure.
+    pub(crate) compliance: f64,
 }
 
 impl Tangent {
-    /// The volume at a pressure above that outside.
+    /// Volume at a pressure relative to ambient, at most [`MAX_VOLUME_RATIO`] from that of the tangent.
     pub(crate) fn volume_at(&self, pressure: f64) -> f64 {
-        let volume = self.volume - self.yielding * (pressure - self.pressure);
-        volume.clamp(self.volume / STEEPEST, self.volume * STEEPEST)
+        let volume = self.volume - self.compliance * (pressure - self.pressure);
+        volume.clamp(
+            self.volume / MAX_VOLUME_RATIO,
+            self.volume * MAX_VOLUME_RATIO,
+        )
     }
 }
 
 impl Gas {
-    /// Air that is at `outside` (Pa, absolute) where nothing closes it off, beside a liquid of the law `tait`, in a unit of
-    /// pressure (Pa).
+    /// Air with the ambient pressure `outside` (Pa, absolute), next to a liquid of the law `tait`; `unit` is that of
+    /// pressure, Pa.
     pub(crate) fn new(outside: f64, leak_time: f64, tait: Tait, unit: f64) -> Self {
         Self {
             outside: outside / unit,
@@ -50,35 +54,37 @@ impl Gas {
         }
     }
 
-    /// The law of `mass`, pressure times volume at the start of a step of `dt` (s), about a volume (cells) at its end:
-    /// p V = m - (exp(dt/t_leak) - 1) (p - p_0) V, exact where the volume stays.
+    /// Tangent about a `volume` (cells) at the end of a step of `dt` (s), for a pocket with the `mass` m, absolute pressure
+    /// times volume at the start of the step: p V = m - (exp(dt/t_leak) - 1) (p - p_0) V, which is exact at constant volume.
     pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
-        let leak = self.leak(dt);
-        // Below what passes may miss: a void that liquid opens without air has no tangent in a vacuum.
-        let thinnest = MISSED * self.outside;
+        let leak = self.leak_factor(dt);
+        // A lower bound on the pressure within the tolerance: a void without air would have no finite tangent.
+        let thinnest = ITERATION_TOLERANCE * self.outside;
         let absolute = (mass / volume + leak * self.outside) / (1.0 + leak);
         Tangent {
             volume,
             pressure: absolute.clamp(thinnest, self.most) - self.outside,
-            yielding: volume * (1.0 + leak) / (mass / volume).max(thinnest),
+            compliance: volume * (1.0 + leak) / (mass / volume).max(thinnest),
         }
     }
 
-    /// Whether a pressure above that outside is that of the volume which its tangent gives it, but for what rounding may move of a
-    /// cell: a void without air collapses to nothing at any pressure of the liquid.
-    pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
+    /// Whether a pressure (relative to ambient) and the volume that the tangent gives for it obey the gas law. An absolute
+    /// error of [`DRIFT`] in the volume is accepted: a void without air collapses to nothing at any liquid pressure.
+    pub(crate) fn obeys_law(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
-        let off = right.yielding * (pressure - right.pressure).abs();
-        off <= (MISSED * right.volume).max(DRIFT)
+        let off = right.compliance * (pressure - right.pressure).abs();
+        off <= (ITERATION_TOLERANCE * right.volume).max(DRIFT)
     }
 
-    /// What of `mass` leaks out in a step in which it comes to a volume and to a pressure above that outside.
+    /// The part of `mass` that leaks out in a step of `dt` (s), at whose end the pocket has this volume and this pressure
+    /// (relative to ambient).
     pub(crate) fn leaked(&self, mass: f64, volume: f64, pressure: f64, dt: f64) -> f64 {
-        (self.leak(dt) * pressure * volume).min(mass)
+        (self.leak_factor(dt) * pressure * volume).min(mass)
     }
 
-    fn leak(&self, dt: f64) -> f64 {
-        /// What leaks all: larger factors would swallow the rest of a sum.
+    /// exp(dt/t_leak) - 1.
+    fn leak_factor(&self, dt: f64) -> f64 {
+        /// Bound at which all excess leaks: a larger factor would swamp the other terms of a sum in rounding.
         const ALL: f64 = 1e9;
         (dt / self.leak_time).exp_m1().min(ALL)
     }
@@ -87,10 +93,10 @@ impl Gas {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::PASSES;
+    use crate::system::MAX_PASSES;
 
-    /// A front that a pressure pushes against friction: tangents lead from one volume to the pressure of the volume that it
-    /// comes to, from far to both sides, with a leak and without; a void without air comes to one or to nothing.
+    /// Newton iteration for a front that a pressure pushes against viscous friction. It converges from volumes far off to both
+    /// sides, with and without a leak, and for a void without air that grows or collapses.
     #[test]
     fn tangents_lead_to_the_pressure_of_the_volume() {
         let pushes = [(1e3, 1e2), (-99.0, 1e2), (5e4, 1e-3), (0.0, 1.0)];
@@ -112,16 +118,16 @@ mod tests {
                 let Tangent {
                     volume,
                     pressure,
-                    yielding,
+                    compliance,
                 } = tangent;
-                let known = volume + yielding * pressure - first + dt * push / resistance;
-                let p = known / (yielding + dt / resistance);
-                if gas.agrees(mass, &tangent, p, dt) {
+                let known = volume + compliance * pressure - first + dt * push / resistance;
+                let p = known / (compliance + dt / resistance);
+                if gas.obeys_law(mass, &tangent, p, dt) {
                     break p;
                 }
                 tangent = gas.tangent(mass, tangent.volume_at(p), dt);
                 passes += 1;
-                assert!(passes < PASSES, "{push} {resistance}");
+                assert!(passes < MAX_PASSES, "{push} {resistance}");
             };
             let (volume, absolute) = (tangent.volume_at(p), p + gas.outside);
             let leaked = gas.leaked(mass, volume, p, dt);

@@ -1,5 +1,4 @@
-//! Air that liquid and walls close off: pockets of it, how much each holds, and its pressure, that of an ideal gas at
-//! constant temperature.
+//! Pockets of air that liquid and walls close off: an ideal gas at constant temperature (docs/methods.md section 3.13).
 
 mod law;
 mod pockets;

@@ -1,15 +1,15 @@
-//! Which pores that are not full make a pocket, and the air in them.
+//! Pockets of air: which pores belong to each, and the gas in them.
 
 use super::law::{Gas, Tangent};
 use crate::geometry::Mesh;
 
-/// Connected pores that are not full and that nothing connects with the outside.
+/// A pocket: connected pores that are not full and have no connection to the outside.
 #[derive(Clone, Debug)]
 pub(crate) struct Pocket {
     pub(crate) pores: Vec<u32>,
-    /// Absolute pressure times volume at the start of the step.
+    /// Amount of gas, as absolute pressure times volume, at the start of the step.
     pub(crate) mass: f64,
-    /// Volume then, cells.
+    /// Volume at the start of the step, cells.
     pub(crate) volume: f64,
     pub(crate) tangent: Tangent,
 }
@@ -17,40 +17,40 @@ pub(crate) struct Pocket {
 /// Air of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Air {
-    /// Pockets beside liquid, which have a pressure in the step, and the others.
+    /// Pockets that border on pores with a pressure, each with an unknown pressure of its own, and the `dry` others.
     pub(crate) pockets: Vec<Pocket>,
     pub(crate) dry: Vec<Pocket>,
-    /// Absolute pressure times volume in each pore; in those of pockets at the start of the step.
-    pub(crate) held: Vec<f64>,
-    /// Pores whose air nothing closes off.
+    /// Gas in each pore, as absolute pressure times volume; in pockets that at the start of the step.
+    pub(crate) mass: Vec<f64>,
+    /// Pores whose air is connected to the outside.
     outside: Vec<u32>,
-    /// Air that full pores have closed in, with none beside.
+    /// Gas in full pores whose neighbours are all full too: it has no pressure until one of them empties.
     pub(crate) covered: f64,
 }
 
 impl Air {
-    /// The air `held` by pores of the empty volume `void`, as pockets where those that are `full` part it. It passes open sides of
-    /// the domain, and those normal to y where these let it out `along_y`.
+    /// The pockets into which pores that are `full` divide the air. `mass` is the gas in each pore, `void` its empty volume.
+    /// Air escapes through open sides of the domain, and through the sides normal to y if `along_y`.
     pub(crate) fn new(
         mesh: &Mesh,
         has_pressure: impl Fn(usize) -> bool,
         full: impl Fn(usize) -> bool,
         void: &[f64],
-        held: &[f64],
+        mass: &[f64],
         along_y: bool,
     ) -> Self {
         let mut air = Self {
             pockets: Vec::new(),
             dry: Vec::new(),
-            held: held.to_vec(),
+            mass: mass.to_vec(),
             outside: Vec::new(),
             covered: 0.0,
         };
-        air.uncover(mesh, &full, void);
+        air.release_covered(mesh, &full, void);
         let reaches_out = |pore: usize| {
             let row = mesh.row_of(pore);
-            let last = row == 0 || row + 1 == mesh.rows().len();
-            mesh.is_beyond(mesh.cell(pore)) || along_y && last
+            let at_end = row == 0 || row + 1 == mesh.rows().len();
+            mesh.is_ghost(mesh.cell(pore)) || along_y && at_end
         };
         let mut found = vec![false; mesh.pores.len()];
         for first in 0..mesh.pores.len() {
@@ -60,12 +60,17 @@ impl Air {
             let pores = mesh.connected(first, &|pore| !full(pore), &mut found);
             let each = || pores.iter().map(|&pore| pore as usize);
             let open = each().any(reaches_out);
-            let wet = each().any(|pore| mesh.ways(pore).any(|way| has_pressure(way.beside)));
+            let wet = each().any(|pore| {
+                mesh.neighbours(pore)
+                    .any(|neighbour| has_pressure(neighbour.pore))
+            });
             air.add(pores, open, wet, void);
         }
         air
     }
 
+    /// Adds connected pores: as outside air if they are `open`, else as a pocket, `wet` if it borders on liquid with a
+    /// pressure.
     fn add(&mut self, mut pores: Vec<u32>, open: bool, wet: bool, void: &[f64]) {
         if open {
             self.outside.append(&mut pores);
@@ -74,7 +79,7 @@ impl Air {
         pores.sort_unstable();
         let sum = |of: &[f64]| pores.iter().map(|&pore| of[pore as usize]).sum::<f64>();
         let pocket = Pocket {
-            mass: sum(&self.held),
+            mass: sum(&self.mass),
             volume: sum(void),
             tangent: Tangent::default(),
             pores,
@@ -85,35 +90,35 @@ impl Air {
         }
     }
 
-    /// Gives what full pores hold to those beside them that are not, by their empty volume.
-    fn uncover(&mut self, mesh: &Mesh, full: &impl Fn(usize) -> bool, void: &[f64]) {
+    /// Moves the gas of full pores to their neighbours that are not full, in proportion to the empty volume of these.
+    fn release_covered(&mut self, mesh: &Mesh, full: &impl Fn(usize) -> bool, void: &[f64]) {
         for pore in (0..mesh.pores.len()).filter(|&pore| full(pore)) {
-            if self.held[pore] == 0.0 {
+            if self.mass[pore] == 0.0 {
                 continue;
             }
             let open: Vec<usize> = mesh
-                .ways(pore)
-                .map(|way| way.beside)
+                .neighbours(pore)
+                .map(|neighbour| neighbour.pore)
                 .filter(|&beside| !full(beside))
                 .collect();
             let all: f64 = open.iter().map(|&beside| void[beside]).sum();
             if all == 0.0 {
-                self.covered += self.held[pore];
+                self.covered += self.mass[pore];
                 continue;
             }
-            let held = std::mem::take(&mut self.held[pore]);
+            let mass = std::mem::take(&mut self.mass[pore]);
             for beside in open {
-                self.held[beside] += held * void[beside] / all;
+                self.mass[beside] += mass * void[beside] / all;
             }
         }
     }
 
-    /// Whether the pressures of pores are those of the volumes that pockets come to in a step of `dt` (s); where one is not,
-    /// pockets have tangents at these volumes.
-    pub(crate) fn settle(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
+    /// Whether the pressures found for a step of `dt` (s) obey the gas law in all pockets. If not, linearises the law anew
+    /// about the volumes found.
+    pub(crate) fn update_tangents(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
         let pressure = |pocket: &Pocket| pressures[pocket.pores[0] as usize];
         let agrees =
-            |pocket: &Pocket| gas.agrees(pocket.mass, &pocket.tangent, pressure(pocket), dt);
+            |pocket: &Pocket| gas.obeys_law(pocket.mass, &pocket.tangent, pressure(pocket), dt);
         if self.pockets.iter().all(agrees) {
             return true;
         }
@@ -124,9 +129,9 @@ impl Air {
         false
     }
 
-    /// The air in each pore after the step, in which the empty volumes came to `void`: that of a pocket is alike
-    /// in all of it, that outside has the pressure `outside`.
-    pub(crate) fn after(mut self, void: &[f64], outside: f64) -> Vec<f64> {
+    /// The gas in each pore after the step, by the empty volumes `void` then: a pocket has one pressure throughout, outside
+    /// air the pressure `outside`.
+    pub(crate) fn mass_after_step(mut self, void: &[f64], outside: f64) -> Vec<f64> {
         for pocket in self.pockets.iter().chain(&self.dry) {
             let all: f64 = pocket.pores.iter().map(|&pore| void[pore as usize]).sum();
             for &pore in &pocket.pores {
@@ -134,12 +139,12 @@ impl Air {
                     true => void[pore as usize] / all,
                     false => 1.0 / pocket.pores.len() as f64,
                 };
-                self.held[pore as usize] = pocket.mass * share;
+                self.mass[pore as usize] = pocket.mass * share;
             }
         }
         for &pore in &self.outside {
-            self.held[pore as usize] = outside * void[pore as usize];
+            self.mass[pore as usize] = outside * void[pore as usize];
         }
-        self.held
+        self.mass
     }
 }

@@ -1,13 +1,13 @@
-//! The parts of a scene that move against one another, and the gap between them.
+//! The two reference frames of a scene, that of the moving body and that of all others, and the gap between them.
 
 use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
 
-use super::lattice::{ALIGNED, Moving};
+use super::lattice::{ALIGNMENT_TOLERANCE, Moving};
 
-/// Refuses motions by which walls come elsewhere than where the grid has them.
+/// Refuses motions that would move walls off the grid's faces.
 pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
-    let tight = ALIGNED * scene.grid.cell_m;
+    let tolerance = ALIGNMENT_TOLERANCE * scene.grid.cell_m;
     if frames.moving.is_some() && scene.boundary[1] == Boundary::Periodic {
         return Err(
             "a body moves along y between periodic sides: give other sides normal to y".into(),
@@ -15,7 +15,8 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
     }
     for (index, body) in scene.bodies.iter().enumerate() {
         let through = |block: &VoxelBlock, a: usize| {
-            let spans = block.origin()[a] <= low[a] + tight && block.max()[a] >= high[a] - tight;
+            let spans =
+                block.origin()[a] <= low[a] + tolerance && block.max()[a] >= high[a] - tolerance;
             spans && block.dims()[a] == 1
         };
         if let Motion::Constant(v) = body.motion {
@@ -34,25 +35,25 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
             continue;
         };
         for block in &body.blocks {
-            let Some([from, to]) = sides(block) else {
+            let Some([from, to]) = solid_extent(block) else {
                 continue;
             };
             let [bottom, top] = frames.gap;
             // A domain may end within its last row of cells.
             let (beside, along) = match moving.down {
                 true => (
-                    to > bottom + tight,
-                    from <= bottom + tight && to > high[1] - scene.grid.cell_m,
+                    to > bottom + tolerance,
+                    from <= bottom + tolerance && to > high[1] - scene.grid.cell_m,
                 ),
                 false => (
-                    from < top - tight,
-                    to >= top - tight && from <= low[1] + tight,
+                    from < top - tolerance,
+                    to >= top - tolerance && from <= low[1] + tolerance,
                 ),
             };
             if beside && !(along && block.dims()[1] == 1) {
                 return Err(format!(
-                    "body '{}' stands beside the way of '{}' and is not alike along it: the implicit scheme takes walls \
-                     there that go on to the side of the domain",
+                    "body '{}' stands beside the path of '{}' and is not uniform along it: the implicit scheme takes \
+                     walls there that reach unchanged to the side of the domain",
                     body.name, scene.bodies[moving.body].name
                 ));
             }
@@ -87,16 +88,16 @@ fn moving(scene: &Scene) -> Result<Option<Moving>, String> {
     Ok(found)
 }
 
-/// Where the gap lies and what moves.
+/// The gap and the body that moves.
 pub(super) struct Frames {
-    /// y of its low and its high side, m.
+    /// y of the low and the high side of the gap, m.
     pub(super) gap: [f64; 2],
     pub(super) moving: Option<Moving>,
 }
 
 impl Frames {
-    /// The gap lies between the body that moves and the nearest voxels of others that end towards it; without such a body it
-    /// is none, at the low side of the domain.
+    /// The gap lies between the moving body and the nearest face of another body ahead of it, else the side of the domain.
+    /// Without a moving body it has no height and lies at the low side of the domain.
     pub(super) fn new(scene: &Scene) -> Result<Self, String> {
         let [low, high] = [scene.grid.min_m[1], scene.grid.max_m()[1]];
         let moving = moving(scene)?;
@@ -106,26 +107,30 @@ impl Frames {
                 moving,
             });
         };
-        let solid = scene.bodies[body].blocks.iter().filter_map(sides);
+        let solid = scene.bodies[body].blocks.iter().filter_map(solid_extent);
         let (bottom, top) = solid.fold((f64::INFINITY, f64::NEG_INFINITY), |so_far, [from, to]| {
             (so_far.0.min(from), so_far.1.max(to))
         });
-        let tight = ALIGNED * scene.grid.cell_m;
-        // Where another body ends on the way, the gap ends.
+        let tolerance = ALIGNMENT_TOLERANCE * scene.grid.cell_m;
+        // The gap ends at the first face of another body ahead of the moving one.
         let others = scene.bodies.iter().enumerate().filter(|at| at.0 != body);
         let blocks = others.flat_map(|(_, body)| &body.blocks);
-        let ends = blocks.filter_map(sides).flatten();
+        let ends = blocks.filter_map(solid_extent).flatten();
         let gap = match down {
             true => [
-                ends.filter(|y| *y <= bottom + tight).fold(low, f64::max),
+                ends.filter(|y| *y <= bottom + tolerance)
+                    .fold(low, f64::max),
                 bottom,
             ],
-            false => [top, ends.filter(|y| *y >= top - tight).fold(high, f64::min)],
+            false => [
+                top,
+                ends.filter(|y| *y >= top - tolerance).fold(high, f64::min),
+            ],
         };
         if let Stop::Closed { travel_m } = scene.stop
-            && travel_m > gap[1] - gap[0] + tight
+            && travel_m > gap[1] - gap[0] + tolerance
         {
-            // Not more than the gap by rounding.
+            // Rounded down, so that the suggested travel does not exceed the gap.
             let most = (1e10 * (gap[1] - gap[0]) + 1e-3).floor() / 1e4;
             let help = match most > 0.0 {
                 true => format!("; --set clamp.travel=\"{most} um\" goes so far"),
@@ -141,7 +146,7 @@ impl Frames {
 }
 
 /// y of the outer sides of the first and the last layer of a block that holds solid voxels.
-fn sides(block: &VoxelBlock) -> Option<[f64; 2]> {
+fn solid_extent(block: &VoxelBlock) -> Option<[f64; 2]> {
     let [_, ny, nz] = block.dims();
     let holds = |j: &usize| (0..nz).any(|k| block.row(*j, k).iter().any(|&word| word != 0));
     let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];

@@ -1,22 +1,22 @@
-//! The voxels of a scene on one lattice: which body fills each, and how the parts move against each other.
+//! The voxel lattice of a scene: the body in each voxel, and the motion of the bodies.
 
 use physics::{Boundary, Dimensions, Motion, RigidBody, Scene, VoxelBlock};
 
 use super::frames::{Frames, check_motions};
 
-/// Code of a voxel that liquid can fill. A body `b` has `b + 1`.
+/// Code of an open voxel. Voxels of body `b` have the code `b + 1`.
 pub(crate) const OPEN: u8 = 0;
-/// Code beyond a side of symmetry: neither open nor a wall.
+/// Code of a voxel beyond a symmetry plane: neither open nor a wall.
 pub(crate) const MIRROR: u8 = u8::MAX;
-/// Part of a voxel that a face of a body may be off the lattice, as rounding of files: a larger one moves walls, a smaller one refuses
-/// what lies on it.
-pub(super) const ALIGNED: f64 = 1e-3;
+/// Largest distance of a body's face from the lattice, voxels, that counts as rounding in files. A larger one would displace
+/// walls, a smaller one would refuse aligned bodies.
+pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A layer of voxels at constant y: codes, x fastest.
 type Layer = Vec<u8>;
 
-/// Voxels of a scene, `k` to the edge of a cell, in three parts along y: layers below the gap, counted down from it; the
-/// gap, which is the same at every height; layers above it, counted up.
+/// Voxels of a scene, `k` to the edge of a cell, in three parts along y: layers below the gap, counted downwards; the gap,
+/// one layer that stands for all heights; layers above the gap, counted upwards.
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice {
     /// Voxels along the edge of a cell: 1 or 2.
@@ -29,33 +29,33 @@ pub(crate) struct Lattice {
     pub(crate) below: Vec<Layer>,
     pub(crate) gap: Layer,
     pub(crate) above: Vec<Layer>,
-    /// y of the low side of the gap at the start, m, and height of the gap, cells.
+    /// At the start: y of the low side of the gap, m, and the height of the gap, cells.
     pub(crate) gap_low_m: f64,
     pub(crate) gap_height: f64,
-    /// What moves along y with the closing speed.
+    /// The body that moves along y at the closing speed.
     pub(crate) moving: Option<Moving>,
-    /// Velocity of each body along x, y, z where that is not the clamp's, cells/s: walls that move along themselves.
+    /// Tangential velocity of each body as a sliding wall, cells/s; zero for the moving body.
     pub(crate) slide: Vec<[f64; 3]>,
 }
 
-/// A body, and its part of the grid, that comes down from above the gap or up from below it.
+/// A body that moves along y together with the grid rows on its side of the gap: down from above, or up from below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Moving {
     pub(crate) body: usize,
     pub(crate) down: bool,
 }
 
-/// Refuses a scene that the scheme has no grid for, without making one.
+/// Checks that the scheme can mesh a scene, without making the mesh.
 ///
 /// # Errors
-/// A sentence on what does not lie on voxels or moves otherwise than a clamp, bodies that meet within their travel among it.
+/// A sentence on a body off the lattice, a motion that the scheme does not take, or bodies that meet within their travel.
 pub fn check(scene: &Scene) -> Result<(), String> {
     checked(scene).map(|_| ())
 }
 
-/// Where the gap of a scene lies, and how many voxels a cell has along its edge.
+/// The frames of a scene and the number of voxels along the edge of a cell.
 fn checked(scene: &Scene) -> Result<(Frames, usize), String> {
-    // Codes of bodies lie between those.
+    // Body codes lie between OPEN and MIRROR.
     let most = usize::from(MIRROR - OPEN) - 1;
     if scene.bodies.len() > most {
         return Err(format!(
@@ -64,7 +64,7 @@ fn checked(scene: &Scene) -> Result<(Frames, usize), String> {
         ));
     }
     let frames = Frames::new(scene)?;
-    // One voxel a cell where every face lies on those of cells.
+    // One voxel a cell where all faces of bodies lie on cell faces, else two.
     let k = match off_lattice(scene, &frames, scene.grid.cell_m) {
         None => 1,
         Some(_) => 2,
@@ -86,23 +86,25 @@ impl Lattice {
     /// The lattice of a scene.
     ///
     /// # Errors
-    /// A sentence on what of the scene does not lie on the voxels or moves otherwise than a clamp.
+    /// As [`check`].
     pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
         let (frames, k) = checked(scene)?;
         let grid = &scene.grid;
         let edge = grid.cell_m / k as f64;
         let across = [0, 2].map(|a| grid.cells[a] * k);
-        let layers = |from: f64, to: f64| ((to - from) / edge + ALIGNED).floor().max(0.0) as usize;
+        let layers = |from: f64, to: f64| {
+            ((to - from) / edge + ALIGNMENT_TOLERANCE).floor().max(0.0) as usize
+        };
         let [low, high] = [grid.min_m[1], grid.max_m()[1]];
         let code = |at: [f64; 3]| {
             let body = scene.bodies.iter().position(|body| body.contains(at));
             body.map_or(OPEN, |body| body as u8 + 1)
         };
-        let place = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
+        let centre = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
         let layer = |y: f64| -> Layer {
-            let places = (0..across[1]).flat_map(|z| (0..across[0]).map(move |x| [x, z]));
-            places
-                .map(|[x, z]| code([place(0, x), y, place(2, z)]))
+            let positions = (0..across[1]).flat_map(|z| (0..across[0]).map(move |x| [x, z]));
+            positions
+                .map(|[x, z]| code([centre(0, x), y, centre(2, z)]))
                 .collect()
         };
         let [bottom, top] = frames.gap;
@@ -133,8 +135,8 @@ impl Lattice {
         })
     }
 
-    /// The lattice of one body at rest, in `size` cells of `k` voxels an edge from its low corner on, and of its mirror image
-    /// behind it along `axis`: periodic along that, with these sides else.
+    /// The lattice of one body at rest followed by its mirror image along `axis`: `size` cells of `k` voxels an edge from
+    /// its low corner, periodic along `axis`, with these `sides` along the other axes.
     pub(crate) fn of_voxels(
         solid: &VoxelBlock,
         k: usize,
@@ -155,14 +157,14 @@ impl Lattice {
             }
         };
         let layer = |y: usize| {
-            let places = (0..nz).flat_map(|z| (0..nx).map(move |x| [x, y, z]));
-            places.map(code).collect()
+            let positions = (0..nz).flat_map(|z| (0..nx).map(move |x| [x, y, z]));
+            positions.map(code).collect()
         };
         let layers = (0..ny).map(layer).collect();
         Self::still(k, [size[0], size[2]], boundary, layers)
     }
 
-    /// Layers of bodies at rest, the lowest first.
+    /// A lattice of one body at rest without a gap, from its layers, the lowest first.
     fn still(k: usize, cells: [usize; 2], boundary: [Boundary; 3], above: Vec<Layer>) -> Self {
         Self {
             k,
@@ -184,8 +186,8 @@ impl Lattice {
         self.moving.is_some_and(|moving| moving.body == body)
     }
 
-    /// Velocity of a body along y over the closing speed.
-    pub(crate) fn speed_of(&self, body: usize) -> f64 {
+    /// Velocity of a body along y per unit of closing speed.
+    pub(crate) fn body_speed(&self, body: usize) -> f64 {
         match self.moving {
             Some(moving) if moving.body == body && moving.down => -1.0,
             Some(moving) if moving.body == body => 1.0,
@@ -193,8 +195,8 @@ impl Lattice {
         }
     }
 
-    /// Velocity of the grid along y over the closing speed where it takes part in the body above's by `share`.
-    pub(crate) fn speed_at(&self, share: f64) -> f64 {
+    /// Velocity of the grid along y per unit of closing speed, at a fraction `share` of the gap's height ([`super::Rows`]).
+    pub(crate) fn grid_speed(&self, share: f64) -> f64 {
         match self.moving {
             Some(Moving { down: true, .. }) => -share,
             Some(_) => 1.0 - share,
@@ -203,15 +205,15 @@ impl Lattice {
     }
 
     /// Voxels along x and z.
-    pub(crate) fn across(&self) -> [usize; 2] {
+    pub(crate) fn layer_size(&self) -> [usize; 2] {
         self.cells.map(|n| n * self.k)
     }
 }
 
-/// A body with a face off a lattice of voxels of this `edge`, m, and the axis along which it is.
+/// A body with a face off the lattice of voxels of this `edge` (m), and the axis normal to that face.
 fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a RigidBody, usize)> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
-    let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNED;
+    let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNMENT_TOLERANCE;
     let fits = |block: &VoxelBlock, a: usize| {
         let from = if a == 1 { frames.gap } else { [low[a]; 2] };
         let inside = |x: f64| x > low[a] && x < high[a];
@@ -226,12 +228,12 @@ fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a 
 
 #[cfg(test)]
 impl super::mesh::Mesh {
-    /// Open cells between mirrors, one across: so many below and above a gap of so many that closes.
+    /// A column of open cells between mirrors: `parts` cells below and above a closing gap of `gap` cells.
     pub(crate) fn column(parts: [usize; 2], gap: usize) -> Self {
         Self::column_from(parts, gap, 0)
     }
 
-    /// The rows of it from `start` on.
+    /// The rows of that column from `start` on.
     pub(crate) fn column_from([below, above]: [usize; 2], gap: usize, start: usize) -> Self {
         let layers = |n: usize| vec![vec![OPEN]; n];
         let (body, down) = (0, true);

@@ -1,13 +1,13 @@
-//! Measures of a mesh: heights of its rows, volumes of pores, areas of faces, with the gap as high as it is.
+//! Measures of a mesh at its current gap height: row heights, pore volumes, face areas.
 
 use super::lattice::Lattice;
 use super::mesh::{Mesh, Pore};
 use super::rows::Rows;
 
-/// Heights of rows, cells.
+/// Row heights, cells.
 pub(super) struct Measures {
     rows: Rows,
-    /// Of each row of the grid: its own, and that of the lowest row there or beside it, a cell at most.
+    /// Of each row of the grid: its height, and the least of one cell and the heights of it and its two neighbours.
     heights: Vec<[f64; 2]>,
 }
 
@@ -15,8 +15,8 @@ impl Measures {
     pub(super) fn new(rows: Rows) -> Self {
         let height = |row: usize| rows.height_of(row);
         let lowest = |row: usize| {
-            let near = row.saturating_sub(1)..(row + 2).min(rows.len());
-            near.map(height).fold(1.0, f64::min)
+            let around = row.saturating_sub(1)..(row + 2).min(rows.len());
+            around.map(height).fold(1.0, f64::min)
         };
         let heights = (0..rows.len()).map(|row| [height(row), lowest(row)]);
         Self {
@@ -27,12 +27,12 @@ impl Measures {
 }
 
 impl Mesh {
-    /// Numbers of rows, and the height of the gap.
+    /// Row counts and the height of the gap.
     pub(crate) fn rows(&self) -> &Rows {
         &self.measures.rows
     }
 
-    /// Makes the gap as high as this, cells.
+    /// Sets the height of the gap, cells.
     pub(crate) fn set_height(&mut self, height: f64) {
         self.measures = Measures::new(Rows {
             height,
@@ -45,9 +45,9 @@ impl Mesh {
         self.measures.heights[self.row_of(pore)][0]
     }
 
-    /// Height of the lowest row at a pore or beside it, a cell at most: the film in a gap that closes knows of edges no farther
-    /// than it is high.
-    pub(crate) fn lowest(&self, pore: usize) -> f64 {
+    /// Least height of the pore's row and its two neighbours, at most one cell. It scales the re-entrant correction: in a
+    /// thin film an edge acts no farther than the film is high.
+    pub(crate) fn lowest_row(&self, pore: usize) -> f64 {
         self.measures.heights[self.row_of(pore)][1]
     }
 
@@ -66,20 +66,20 @@ impl Mesh {
 
     /// Volume of a pore, cells.
     pub(crate) fn volume(&self, pore: usize) -> f64 {
-        self.part(pore) * self.height(pore)
+        self.cell_fraction(pore) * self.height(pore)
     }
 
-    /// The same with a gap of another height.
+    /// Volume of a pore, cells, if the gap had another `height`.
     pub(crate) fn volume_at(&self, pore: usize, height: f64) -> f64 {
         let rows = Rows {
             height,
             ..*self.rows()
         };
-        self.part(pore) * rows.height_of(self.row_of(pore))
+        self.cell_fraction(pore) * rows.height_of(self.row_of(pore))
     }
 
-    /// Part of its cell that a pore fills.
-    fn part(&self, pore: usize) -> f64 {
+    /// Volume of a pore over that of its cell.
+    fn cell_fraction(&self, pore: usize) -> f64 {
         let Pore { voxels, .. } = self.pores[pore];
         f64::from(voxels.count_ones()) / (self.k * self.k * self.k) as f64
     }
@@ -94,8 +94,8 @@ impl Mesh {
         }
     }
 
-    /// Part of the area of all faces of a pore on one side that one of them has.
-    pub(crate) fn share(&self, face: usize, pore: usize, axis: usize, up: bool) -> f64 {
+    /// Area of `face` over that of all faces on the same side of `pore`.
+    pub(crate) fn area_share(&self, face: usize, pore: usize, axis: usize, up: bool) -> f64 {
         let side = self.faces_at(pore, axis, up);
         match side.len() {
             1 => 1.0,
@@ -103,9 +103,9 @@ impl Mesh {
         }
     }
 
-    /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.
-    pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
-        let row = self.row_of(self.faces[face].ends()[1]);
-        lattice.speed_at(self.rows().share(row))
+    /// Velocity of the grid along y at a face normal to y, per unit of closing speed.
+    pub(crate) fn grid_velocity(&self, lattice: &Lattice, face: usize) -> f64 {
+        let row = self.row_of(self.faces[face].pores()[1]);
+        lattice.grid_speed(self.rows().closing_share(row))
     }
 }

@@ -1,4 +1,4 @@
-//! Pores and faces: the control volumes of the liquid and what joins them.
+//! Pores and faces: the control volumes and the faces that carry the staggered velocities.
 
 use std::ops::Range;
 
@@ -11,90 +11,94 @@ use super::region::Region;
 use super::rows::Rows;
 use super::split::connected;
 
-/// A connected part of the open voxels of a cell.
+/// A control volume: a connected set of open voxels of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Pore {
     pub(crate) cell: u32,
     /// Row of the grid.
     pub(crate) row: u32,
-    /// Its voxels, a bit each, x fastest.
+    /// Bit mask of its voxels, x fastest.
     pub(crate) voxels: u8,
 }
 
-/// Open voxel faces between two pores of neighbouring cells, which share a velocity.
+/// The open voxel faces between two pores of neighbouring cells, with one velocity for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Face {
     pub(crate) low: u32,
     pub(crate) high: u32,
-    /// The voxel faces, a bit each, the lower of the two other axes fastest.
+    /// Bit mask of the open voxel faces, the lower of the two tangential axes fastest.
     pub(crate) open: u8,
     pub(crate) axis: u8,
 }
 
 impl Face {
-    /// The pores on its low and its high side.
-    pub(crate) fn ends(&self) -> [usize; 2] {
+    /// The pores on the low and the high side.
+    pub(crate) fn pores(&self) -> [usize; 2] {
         [self.low as usize, self.high as usize]
     }
 }
 
-/// A face seen from a pore beside it.
+/// A neighbour of a pore and the face towards it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct Neighbour {
     pub(crate) face: usize,
     pub(crate) axis: usize,
-    /// Whether it is on the pore's high side.
+    /// Whether the face is on the pore's high side.
     pub(crate) up: bool,
-    /// The pore behind it.
-    pub(crate) beside: usize,
+    /// The neighbouring pore.
+    pub(crate) pore: usize,
 }
 
-impl Way {
-    /// Sign of a velocity that leaves the pore.
+impl Neighbour {
+    /// Sign of a face velocity that leaves the pore.
     pub(crate) fn sign(self) -> f64 {
         if self.up { 1.0 } else { -1.0 }
     }
 }
 
-/// The pores and faces of a range of rows. Cells are counted x first, then y (rows), then z; on open sides a layer of
-/// cells beyond the domain takes what leaves it.
+/// The pores and faces of a range of rows. Cells are numbered x first, then y (rows), then z. Beyond each open side lies a
+/// layer of ghost cells that takes the outflow.
 pub(crate) struct Mesh {
     pub(crate) k: usize,
-    /// Cells along x, rows, z, with those beyond open sides.
+    /// Cells along x, rows, cells along z, ghost cells included.
     pub(crate) size: [usize; 3],
-    /// Cells beyond the low sides.
-    pub(crate) beyond: [usize; 3],
+    /// Layers of ghost cells at the low side of each axis.
+    pub(crate) ghost_layers: [usize; 3],
     pub(super) measures: Measures,
-    /// Rows of the grid that are here.
+    /// Rows of the grid that this mesh covers.
     pub(crate) range: Range<usize>,
-    /// Cells that have their pores here.
+    /// Active cells: only these have pores.
     pub(crate) region: Region,
     pub(crate) boundary: [Boundary; 3],
     pub(crate) pores: Vec<Pore>,
     pub(crate) faces: Vec<Face>,
-    /// What fills each voxel of each cell.
+    /// Code of each voxel of each cell: open, mirror or body.
     pub(super) codes: Vec<u8>,
-    /// At which sides of the box each cell lies, a bit each: low and high along x, y, z.
+    /// Bit mask of the sides of the box at which each cell lies: low and high along x, y, z.
     at_sides: Vec<u8>,
-    /// First pore of each cell, and one more.
+    /// Start of each cell's pores in `pores` (compressed rows, with an end).
     pore_start: Vec<u32>,
-    /// First face of each cell towards x, y, z, and one more.
+    /// Start of each cell's faces towards its next cell along x, y, z in `faces` (compressed rows, with an end).
     face_start: Vec<u32>,
-    /// Faces of each pore on its low and its high side along x, y, z, and where those of each side begin.
-    sides: Vec<u32>,
-    side_start: Vec<u32>,
+    /// Faces of each pore, grouped by side (low and high along x, y, z), and the start of each group.
+    pore_faces: Vec<u32>,
+    pore_face_start: Vec<u32>,
 }
 
 impl Mesh {
-    /// The box of cells of the rows in `range`.
+    /// Size of the box of cells of the rows in `range`.
     pub(crate) fn size_of(lattice: &Lattice, range: &Range<usize>) -> [usize; 3] {
-        let beyond = Self::beyond_of(lattice);
+        let ghost_layers = Self::ghost_layers_of(lattice);
         let [nx, nz] = lattice.cells;
-        [nx + 2 * beyond[0], range.len(), nz + 2 * beyond[2]]
+        [
+            nx + 2 * ghost_layers[0],
+            range.len(),
+            nz + 2 * ghost_layers[2],
+        ]
     }
 
-    /// Cells beyond the low sides.
-    fn beyond_of(lattice: &Lattice) -> [usize; 3] {
+    /// Layers of ghost cells at the low side of each axis.
+    fn ghost_layers_of(lattice: &Lattice) -> [usize; 3] {
         let open_side = |a: usize| usize::from(lattice.boundary[a] == Boundary::Open);
         [open_side(0), 0, open_side(2)]
     }
@@ -105,15 +109,15 @@ impl Mesh {
         Self::new(lattice, rows, range, region)
     }
 
-    /// The mesh of a region of the rows in `range`.
+    /// The mesh of the active cells `region` of the rows in `range`.
     pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>, region: Region) -> Self {
-        let beyond = Self::beyond_of(lattice);
+        let ghost_layers = Self::ghost_layers_of(lattice);
         let size = Self::size_of(lattice, &range);
         let cells: usize = size.iter().product();
         let mut mesh = Self {
             k: lattice.k,
             size,
-            beyond,
+            ghost_layers,
             measures: Measures::new(rows),
             range,
             region,
@@ -124,15 +128,16 @@ impl Mesh {
             at_sides: Vec::with_capacity(cells),
             pore_start: Vec::with_capacity(cells + 1),
             face_start: Vec::with_capacity(3 * cells + 1),
-            sides: Vec::new(),
-            side_start: Vec::new(),
+            pore_faces: Vec::new(),
+            pore_face_start: Vec::new(),
         };
         let k3 = mesh.k.pow(3);
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
         mesh.codes = (0..k3 * cells).into_par_iter().map(code).collect();
         for cell in 0..cells {
-            let place = mesh.place(cell);
-            let sides = |a: usize| u8::from(place[a] == 0) | u8::from(place[a] + 1 == size[a]) << 1;
+            let indices = mesh.cell_indices(cell);
+            let sides =
+                |a: usize| u8::from(indices[a] == 0) | u8::from(indices[a] + 1 == size[a]) << 1;
             mesh.at_sides
                 .push((0..3).map(|a| sides(a) << (2 * a)).sum());
             mesh.pore_start.push(mesh.pores.len() as u32);
@@ -151,45 +156,45 @@ impl Mesh {
                 if lattice.flat && axis == 2 {
                     continue;
                 }
-                if let Some(next) = mesh.neighbour(cell, axis, true) {
+                if let Some(next) = mesh.next_cell(cell, axis, true) {
                     mesh.join(cell, next, axis);
                 }
             }
         }
         mesh.face_start.push(mesh.faces.len() as u32);
-        mesh.list_sides();
+        mesh.list_pore_faces();
         mesh.pores.shrink_to_fit();
         mesh.faces.shrink_to_fit();
         mesh
     }
 
-    /// Lists the faces of each pore.
-    fn list_sides(&mut self) {
-        self.sides.reserve_exact(2 * self.faces.len());
-        self.side_start.reserve_exact(6 * self.pores.len() + 1);
+    /// Fills `pore_faces` and `pore_face_start`.
+    fn list_pore_faces(&mut self) {
+        self.pore_faces.reserve_exact(2 * self.faces.len());
+        self.pore_face_start.reserve_exact(6 * self.pores.len() + 1);
         for pore in 0..self.pores.len() {
             let cell = self.pores[pore].cell as usize;
             for axis in 0..3 {
                 for up in [false, true] {
-                    self.side_start.push(self.sides.len() as u32);
+                    self.pore_face_start.push(self.pore_faces.len() as u32);
                     let range = match up {
                         true => self.faces_of(cell, axis),
-                        false => (self.neighbour(cell, axis, false))
+                        false => (self.next_cell(cell, axis, false))
                             .map_or(0..0, |low| self.faces_of(low, axis)),
                     };
                     for face in range {
                         let f = self.faces[face];
                         if (if up { f.low } else { f.high }) as usize == pore {
-                            self.sides.push(face as u32);
+                            self.pore_faces.push(face as u32);
                         }
                     }
                 }
             }
         }
-        self.side_start.push(self.sides.len() as u32);
+        self.pore_face_start.push(self.pore_faces.len() as u32);
     }
 
-    /// Adds the faces between the pores of two cells.
+    /// Adds the faces between the pores of two neighbouring cells.
     fn join(&mut self, low: usize, high: usize, axis: usize) {
         for l in self.pores_of(low) {
             for h in self.pores_of(high) {
@@ -207,7 +212,7 @@ impl Mesh {
         }
     }
 
-    /// The place in its cell of the voxel of a bit.
+    /// Position in its cell of the voxel of a mask bit.
     pub(crate) fn voxel(&self, bit: usize) -> [usize; 3] {
         match self.k {
             1 => [0; 3],
@@ -215,7 +220,7 @@ impl Mesh {
         }
     }
 
-    /// Voxels on the high or low side of a cell along an axis, as bits of the other two axes, the lower fastest.
+    /// Mask of the voxels at the high or low side of a cell along an axis, over the two tangential axes, the lower fastest.
     fn side(&self, voxels: u8, axis: usize, high: bool) -> u8 {
         let k = self.k;
         let mut side = 0;
@@ -229,8 +234,8 @@ impl Mesh {
         side
     }
 
-    /// Place of a cell: x, row of the mesh, z.
-    pub(crate) fn place(&self, cell: usize) -> [usize; 3] {
+    /// Indices of a cell in the box: x, row of the mesh, z.
+    pub(crate) fn cell_indices(&self, cell: usize) -> [usize; 3] {
         let [nx, ny, _] = self.size;
         [cell % nx, cell / nx % ny, cell / (nx * ny)]
     }
@@ -241,7 +246,7 @@ impl Mesh {
 
     /// Row of the grid of a cell.
     pub(crate) fn row(&self, cell: usize) -> usize {
-        self.place(cell)[1] + self.range.start
+        self.cell_indices(cell)[1] + self.range.start
     }
 
     /// Row of the grid of a pore.
@@ -249,8 +254,8 @@ impl Mesh {
         self.pores[pore].row as usize
     }
 
-    /// The next cell along an axis, over periodic sides too; `None` at other sides.
-    pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
+    /// The next cell along an axis, across periodic sides too; `None` at other sides of the box.
+    pub(crate) fn next_cell(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let [nx, ny, _] = self.size;
         let (n, stride) = (self.size[axis], [1, nx, nx * ny][axis]);
         let at_side = self.at_sides[cell] >> (2 * axis + usize::from(up)) & 1 == 1;
@@ -263,11 +268,11 @@ impl Mesh {
         }
     }
 
-    /// Which axes have periodic sides within this mesh.
+    /// Which axes are periodic in this mesh; y only if the mesh has all rows.
     pub(crate) fn periodic(&self) -> [bool; 3] {
         let whole = self.range.len() == self.rows().len();
-        let here = [true, whole, true];
-        std::array::from_fn(|axis| here[axis] && self.boundary[axis] == Boundary::Periodic)
+        let complete = [true, whole, true];
+        std::array::from_fn(|axis| complete[axis] && self.boundary[axis] == Boundary::Periodic)
     }
 
     /// Pores of a cell.
@@ -289,24 +294,25 @@ impl Mesh {
         up: bool,
     ) -> impl ExactSizeIterator<Item = usize> + Clone {
         let at = 6 * pore + 2 * axis + usize::from(up);
-        let range = self.side_start[at] as usize..self.side_start[at + 1] as usize;
-        self.sides[range].iter().map(|&face| face as usize)
+        let range = self.pore_face_start[at] as usize..self.pore_face_start[at + 1] as usize;
+        self.pore_faces[range].iter().map(|&face| face as usize)
     }
 
-    /// The faces of a pore, along x, y, z, on its low side first.
-    pub(crate) fn ways(&self, pore: usize) -> impl Iterator<Item = Way> {
+    /// The neighbours of a pore: along x, y, z, low side first.
+    pub(crate) fn neighbours(&self, pore: usize) -> impl Iterator<Item = Neighbour> {
         (0..6).flat_map(move |side| {
             let (axis, up) = (side / 2, side % 2 == 1);
-            self.faces_at(pore, axis, up).map(move |face| Way {
+            self.faces_at(pore, axis, up).map(move |face| Neighbour {
                 face,
                 axis,
                 up,
-                beside: self.faces[face].ends()[usize::from(up)],
+                pore: self.faces[face].pores()[usize::from(up)],
             })
         })
     }
 
-    /// The connected pores around `first` that are `within`, which joins those `found`.
+    /// The pores that are connected to `first` through pores for which `within` holds. Marks them in `found`, and skips
+    /// those marked.
     pub(crate) fn connected(
         &self,
         first: usize,
@@ -317,7 +323,7 @@ impl Mesh {
         found[first] = true;
         while let Some(&pore) = pores.get(next) {
             next += 1;
-            for Way { beside, .. } in self.ways(pore as usize) {
+            for Neighbour { pore: beside, .. } in self.neighbours(pore as usize) {
                 if within(beside) && !std::mem::replace(&mut found[beside], true) {
                     pores.push(beside as u32);
                 }
@@ -331,33 +337,35 @@ impl Mesh {
         self.pores[pore].cell as usize
     }
 
-    /// Whether a face is in the gap or beside it.
-    pub(crate) fn is_by_gap(&self, face: usize) -> bool {
-        let [low, high] = self.faces[face].ends().map(|pore| self.row_of(pore));
+    /// Whether a face has a pore in the gap or in a row next to it.
+    pub(crate) fn touches_gap(&self, face: usize) -> bool {
+        let [low, high] = self.faces[face].pores().map(|pore| self.row_of(pore));
         let rows = self.rows();
         let gap = rows.below..rows.below + rows.gap + 1;
         gap.contains(&high) || gap.contains(&(low + 1))
     }
 
-    /// The pore of a cell that holds a voxel.
-    pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
-        self.pores_of(cell).find(|&pore| self.holds(pore, voxel))
+    /// The pore of a cell to which a voxel belongs.
+    pub(crate) fn pore_at(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
+        self.pores_of(cell)
+            .find(|&pore| self.has_voxel(pore, voxel))
     }
 
-    /// The face between two pores along an axis.
+    /// The face between two pores that are neighbours along an axis.
     pub(crate) fn face_between(&self, low: usize, high: usize, axis: usize) -> Option<usize> {
-        (self.faces_of(self.cell(low), axis)).find(|&face| self.faces[face].ends() == [low, high])
+        (self.faces_of(self.cell(low), axis)).find(|&face| self.faces[face].pores() == [low, high])
     }
 
-    /// Whether a cell lies beyond an open side.
-    pub(crate) fn is_beyond(&self, cell: usize) -> bool {
+    /// Whether a cell is a ghost cell, beyond an open side.
+    pub(crate) fn is_ghost(&self, cell: usize) -> bool {
         if !self.boundary.contains(&Boundary::Open) {
             return false;
         }
-        let place = self.place(cell);
-        let across =
-            |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
-        let row = place[1] + self.range.start;
+        let indices = self.cell_indices(cell);
+        let across = |a: usize| {
+            self.ghost_layers[a] == 1 && (indices[a] == 0 || indices[a] + 1 == self.size[a])
+        };
+        let row = indices[1] + self.range.start;
         let along =
             self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows().len());
         along || across(0) || across(2)

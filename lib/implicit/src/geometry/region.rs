@@ -1,8 +1,8 @@
-//! Some of the cells of a box: those that a mesh has pores in, near liquid, and those of a mesh with something in common.
+//! Sets of cells of a box, such as the active cells around the liquid.
 
 use super::mesh::{Face, Mesh};
 
-/// Some of the cells of a box, x first, then y, then z.
+/// A set of cells of a box, numbered x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Region {
     size: [usize; 3],
@@ -18,7 +18,7 @@ impl Region {
         }
     }
 
-    pub(crate) fn holds(&self, cell: usize) -> bool {
+    pub(crate) fn contains(&self, cell: usize) -> bool {
         self.cells[cell]
     }
 
@@ -26,13 +26,13 @@ impl Region {
         self.cells[cell] = true;
     }
 
-    /// Whether all cells of `other` are among these.
+    /// Whether the set includes all cells of `other`.
     pub(crate) fn covers(&self, other: &Self) -> bool {
         let mut pairs = self.cells.iter().zip(&other.cells);
         pairs.all(|(own, other)| *own || !other)
     }
 
-    /// The cells at most `by` from these along each axis, over `periodic` sides too.
+    /// The set dilated by `by` cells along each axis, across `periodic` sides too.
     pub(crate) fn grown(&self, by: usize, periodic: [bool; 3]) -> Self {
         let mut region = self.clone();
         let mut counts = Vec::new();
@@ -41,13 +41,13 @@ impl Region {
             for line in 0..region.cells.len() / n {
                 let start = line / stride * stride * n + line % stride;
                 let at = |i: usize| start + i * stride;
-                // Cells of the line and of its images on both sides up to each.
+                // Prefix counts of set cells along the line, extended by its periodic images on both sides.
                 let before = if periodic[axis] { by.min(n) } else { 0 };
                 counts.clear();
                 counts.push(0_usize);
                 for i in 0..n + 2 * before {
-                    let held = region.cells[at((i + n - before) % n)];
-                    counts.push(counts[i] + usize::from(held));
+                    let is_member = region.cells[at((i + n - before) % n)];
+                    counts.push(counts[i] + usize::from(is_member));
                 }
                 for i in 0..n {
                     let low = (i + before).saturating_sub(by);
@@ -59,37 +59,39 @@ impl Region {
         region
     }
 
-    /// The cells whose neighbours, edges and corners in, are all among these.
+    /// The set eroded by one cell: cells whose neighbours, across edges and corners too, all belong to the set.
     pub(crate) fn inner(&self, periodic: [bool; 3]) -> Self {
-        let turned = |region: &Self| Self {
+        let complement = |region: &Self| Self {
             size: region.size,
-            cells: region.cells.iter().map(|held| !held).collect(),
+            cells: region.cells.iter().map(|is_member| !is_member).collect(),
         };
-        turned(&turned(self).grown(1, periodic))
+        complement(&complement(self).grown(1, periodic))
     }
 
-    /// The cells as bits, for checkpoints.
+    /// The set as a bit mask, for checkpoints.
     pub(crate) fn bits(&self) -> Vec<u32> {
         let word = |cells: &[bool]| {
             let bits = cells.iter().enumerate();
-            bits.fold(0, |word, (bit, &held)| word | u32::from(held) << bit)
+            bits.fold(0, |word, (bit, &is_member)| {
+                word | u32::from(is_member) << bit
+            })
         };
         self.cells.chunks(32).map(word).collect()
     }
 
-    /// The cells of a box by their bits; `None` where there are more or fewer.
+    /// The set from a bit mask; `None` where the mask has the wrong length.
     pub(crate) fn of_bits(size: [usize; 3], bits: &[u32]) -> Option<Self> {
         let mut region = Self::new(size, false);
         let fits = bits.len() == region.cells.len().div_ceil(32);
-        for (cell, held) in region.cells.iter_mut().enumerate() {
-            *held = fits && bits[cell / 32] >> (cell % 32) & 1 == 1;
+        for (cell, is_member) in region.cells.iter_mut().enumerate() {
+            *is_member = fits && bits[cell / 32] >> (cell % 32) & 1 == 1;
         }
         fits.then_some(region)
     }
 }
 
 impl Mesh {
-    /// Cells with a pore that `holds` liquid.
+    /// Cells with a pore for which `holds` is true.
     pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
         let mut region = Region::new(self.size, false);
         for (pore, of) in self.pores.iter().enumerate() {
@@ -100,15 +102,19 @@ impl Mesh {
         region
     }
 
-    /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
+    /// Whether each face borders on a cell whose neighbours are all active. Only these faces can have liquid.
     pub(crate) fn inner_faces(&self) -> Vec<bool> {
         let inner = self.region.inner(self.periodic());
-        let holds = |face: &Face| face.ends().iter().any(|&pore| inner.holds(self.cell(pore)));
+        let holds = |face: &Face| {
+            face.pores()
+                .iter()
+                .any(|&pore| inner.contains(self.cell(pore)))
+        };
         self.faces.iter().map(holds).collect()
     }
 
-    /// Cells that are open, as are all of their neighbours: no wall is near.
-    pub(crate) fn clear_cells(&self) -> Region {
+    /// Cells that are wholly open, as are all their neighbours: no wall acts on their faces.
+    pub(crate) fn wall_free_cells(&self) -> Region {
         let mut open = Region::new(self.size, false);
         let whole = (1_u32 << self.k.pow(3)) - 1;
         for pore in &self.pores {
@@ -119,9 +125,9 @@ impl Mesh {
         open.inner(self.periodic())
     }
 
-    /// Whether both cells of a face are among those.
-    pub(crate) fn is_clear(&self, face: usize, clear: &Region) -> bool {
-        (self.faces[face].ends().iter()).all(|&pore| clear.holds(self.cell(pore)))
+    /// Whether both cells of a face are in `clear`, the set of [`Self::wall_free_cells`].
+    pub(crate) fn is_wall_free(&self, face: usize, clear: &Region) -> bool {
+        (self.faces[face].pores().iter()).all(|&pore| clear.contains(self.cell(pore)))
     }
 }
 
@@ -131,7 +137,7 @@ mod tests {
 
     fn cells(region: &Region) -> Vec<usize> {
         (0..region.cells.len())
-            .filter(|&cell| region.holds(cell))
+            .filter(|&cell| region.contains(cell))
             .collect()
     }
 

@@ -1,6 +1,6 @@
-//! Rows of cells normal to the bond: those of the body below, those of the gap, those of the body above.
+//! Rows of cells along the bond normal: those of the part below the gap, of the gap, and of the part above.
 
-/// Which part of the grid a row is in.
+/// The part of the grid to which a row belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RowKind {
     Below,
@@ -8,8 +8,8 @@ pub(crate) enum RowKind {
     Above,
 }
 
-/// Numbers of rows, from low y up, and the height of the gap. Rows of the parts below and above are a cell high; those of
-/// the gap share its height.
+/// Row counts of the three parts and the height of the gap. Rows below and above are one cell high; those of the gap share its
+/// height equally. Rows are numbered from low y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rows {
     pub(crate) below: usize,
@@ -19,11 +19,12 @@ pub(crate) struct Rows {
     pub(crate) height: f64,
 }
 
-/// Part of a cell, or of the liquid's water, that rounding may move in a run: far more than it does, far less than steps do.
+/// Bound on accumulated rounding, in cells or as a share of the water: far above what rounding does, far below what a step
+/// does.
 pub(crate) const DRIFT: f64 = 1e-6;
 
 impl Rows {
-    /// Rows of a gap of `height` cells: as few as are no higher than a cell.
+    /// Rows with a gap of `height` cells, which has the fewest rows that are no higher than a cell.
     pub(crate) fn of_gap(below: usize, above: usize, height: f64) -> Self {
         let gap = (height - DRIFT).ceil().max(0.0) as usize;
         Self {
@@ -56,7 +57,7 @@ impl Rows {
         }
     }
 
-    /// The low side of a row above the low side of the gap, cells.
+    /// y of the low side of a row, cells from the low side of the gap.
     pub(crate) fn low(&self, row: usize) -> f64 {
         let from_gap = row as f64 - self.below as f64;
         match self.kind(row) {
@@ -66,8 +67,9 @@ impl Rows {
         }
     }
 
-    /// Part of the closing speed by which the low side of a row moves against the body below: 0 there, 1 at the body above.
-    pub(crate) fn share(&self, row: usize) -> f64 {
+    /// Velocity of the low side of a row relative to the part below, over that of the part above: 0 below, 1 above, linear
+    /// across the gap.
+    pub(crate) fn closing_share(&self, row: usize) -> f64 {
         match self.kind(row) {
             RowKind::Below => 0.0,
             RowKind::Gap => (row - self.below) as f64 / self.gap as f64,
@@ -89,7 +91,7 @@ mod tests {
         assert_eq!(low, [-3.0, -2.0, -1.0, 0.0, third, 2.0 * third, 2.5, 3.5]);
         assert_eq!(rows.height_of(4), third);
         assert_eq!(
-            [2, 3, 5, 6].map(|row| rows.share(row)),
+            [2, 3, 5, 6].map(|row| rows.closing_share(row)),
             [0.0, 0.0, 2.0 / 3.0, 1.0]
         );
         assert_eq!(Rows::of_gap(3, 2, 3.0 + 1e-9).gap, 3);

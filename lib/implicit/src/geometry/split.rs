@@ -1,6 +1,6 @@
-//! Connected parts of the open voxels of a cell.
+//! Splits the open voxels of a cell into connected sets, one a pore.
 
-/// The parts of `open` (a bit per voxel, x fastest, `k` voxels an edge) that faces of voxels connect, each as bits.
+/// The sets of voxels of the mask `open` (x fastest, `k` voxels an edge) that are connected by voxel faces, each as a mask.
 pub(super) fn connected(open: u8, k: usize) -> impl Iterator<Item = u8> {
     let mut left = open;
     std::iter::from_fn(move || {
@@ -20,7 +20,7 @@ pub(super) fn connected(open: u8, k: usize) -> impl Iterator<Item = u8> {
     })
 }
 
-/// Voxels beside those of `part`.
+/// Mask of the voxels that share a face with one of `part`.
 fn neighbours(part: u8, k: usize) -> u8 {
     if k == 1 {
         return part;

@@ -1,12 +1,12 @@
-//! Liquid at the start: what of it lies in each pore.
+//! Initial liquid: spreads the scene's points over the pores.
 
 use physics::{Points, Seed};
 
 use crate::geometry::Mesh;
 
-/// Cells of a metre and the place of the grid's origin.
+/// Origin and cell size of the grid.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct GridOrigin {
     /// Edge of a cell, m.
     pub(crate) cell_m: f64,
     /// Low side of the domain along x and z, and of the gap along y, m.
@@ -15,8 +15,8 @@ pub(crate) struct Place {
     pub(crate) flat: bool,
 }
 
-impl Place {
-    /// Half the edges of a point of so much liquid, a cube or as deep as the domain, cells.
+impl GridOrigin {
+    /// Half edges of a point of this volume, cells: a cube, in plane strain a square as deep as the domain.
     pub(crate) fn half(&self, volume_m3: f64) -> [f64; 3] {
         let volume = volume_m3 / self.cell_m.powi(3);
         match self.flat {
@@ -26,22 +26,23 @@ impl Place {
     }
 }
 
-/// Sums over `points` in each pore of a mesh of what `value` says of a point, each a cube of its volume.
+/// Sum of `value` over the points in each pore. A point is a box of its volume, whose value is spread over the open voxels that
+/// it overlaps.
 ///
 /// # Errors
-/// Where a point lies in a body or outside the domain.
+/// Where the centre of a point lies in a body or outside the domain.
 pub(crate) fn deposit(
     mesh: &Mesh,
     points: &Points,
-    place: Place,
+    origin: GridOrigin,
     value: impl Fn(&Seed) -> f64,
 ) -> Result<Vec<f64>, String> {
     let mut sums = vec![0.0; mesh.pores.len()];
     let sides = [0, 1, 2].map(|axis| sides(mesh, axis));
     for (index, point) in points.seeds().enumerate() {
         let at: [f64; 3] =
-            std::array::from_fn(|a| (point.position[a] - place.origin_m[a]) / place.cell_m);
-        let half = place.half(point.volume);
+            std::array::from_fn(|a| (point.position[a] - origin.origin_m[a]) / origin.cell_m);
+        let half = origin.half(point.volume);
         spread(mesh, &sides, at, half, value(&point), &mut sums).ok_or_else(|| {
             format!("liquid point {index} lies in a rigid body or outside the domain")
         })?;
@@ -49,7 +50,7 @@ pub(crate) fn deposit(
     Ok(sums)
 }
 
-/// Sides of the voxels of a mesh along an axis, cells from the origin.
+/// Coordinates of the voxel faces of a mesh along an axis, cells from the origin.
 fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let k = mesh.k;
     let side = |i: usize| {
@@ -63,13 +64,14 @@ fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
                 let row = cell + mesh.range.start;
                 mesh.rows().low(row) + part * mesh.rows().height_of(row)
             }
-            _ => cell as f64 - mesh.beyond[axis] as f64 + part,
+            _ => cell as f64 - mesh.ghost_layers[axis] as f64 + part,
         }
     };
     (0..=k * mesh.size[axis]).map(side).collect()
 }
 
-/// Spreads a value over the open voxels in a box around a place, cells from the origin; `None` where the place is in none.
+/// Spreads a value over the open voxels of a box around `at` (cells from the origin); `None` where `at` itself is in no open
+/// voxel.
 fn spread(
     mesh: &Mesh,
     sides: &[Vec<f64>; 3],
@@ -78,8 +80,8 @@ fn spread(
     value: f64,
     sums: &mut [f64],
 ) -> Option<()> {
-    // Voxels, the part of the box along the axis in each, and whether the place is in it.
-    let near = |a: usize| -> Vec<(usize, f64, bool)> {
+    // Along an axis: voxel indices, the overlap of the box with each, and whether `at` is in it.
+    let overlaps = |a: usize| -> Vec<(usize, f64, bool)> {
         let [low, high] = [at[a] - half[a], at[a] + half[a]];
         let first = sides[a]
             .partition_point(|side| *side <= low)
@@ -94,14 +96,14 @@ fn spread(
             })
             .collect()
     };
-    let near = [near(0), near(1), near(2)];
+    let overlaps = [overlaps(0), overlaps(1), overlaps(2)];
     let mut parts = Vec::new();
     let mut inside = false;
-    for &(z, dz, at_z) in &near[2] {
-        for &(y, dy, at_y) in &near[1] {
-            for &(x, dx, at_x) in &near[0] {
+    for &(z, dz, at_z) in &overlaps[2] {
+        for &(y, dy, at_y) in &overlaps[1] {
+            for &(x, dx, at_x) in &overlaps[0] {
                 let cell = mesh.cell_at([x, y, z].map(|i| i / mesh.k));
-                if let Some(pore) = mesh.pore_with(cell, [x, y, z].map(|i| i % mesh.k)) {
+                if let Some(pore) = mesh.pore_at(cell, [x, y, z].map(|i| i % mesh.k)) {
                     parts.push((pore, dx * dy * dz));
                     inside |= at_x && at_y && at_z;
                 }

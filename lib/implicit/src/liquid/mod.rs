@@ -1,13 +1,13 @@
-//! The liquid: the volume of it in each pore, how it starts and moves.
+//! The liquid volume of each pore: initial deposit, advection, transfer to a new mesh.
 
-mod carry;
+mod advect_water;
 mod deposit;
 mod overflow;
+mod remap;
 mod transport;
-mod water;
 
-pub(crate) use carry::{
-    Kept, carried_pressures, carried_region, carried_velocities, carried_volumes,
+pub(crate) use deposit::{GridOrigin, deposit};
+pub(crate) use remap::{
+    FaceMap, remapped_pressures, remapped_region, remapped_velocities, remapped_volumes,
 };
-pub(crate) use deposit::{Place, deposit};
 pub(crate) use transport::{Moved, TRACE, transport};

@@ -1,31 +1,30 @@
-//! Liquid beyond what a pore can hold goes on to pores beside it.
+//! Overflow: liquid beyond the capacity of a pore goes on to its neighbours (docs/methods.md section 3.9).
 
-use super::transport::{PASSES, ROUNDING, pass};
-use crate::geometry::{Mesh, Way};
+use super::transport::{MAX_SWEEPS, ROUNDING, move_through};
+use crate::geometry::{Mesh, Neighbour};
 
-/// Excess, cells, that stays where it is: less would be passed to and fro by the rounding of sums.
-const NOTHING: f64 = 10.0 * ROUNDING;
+/// Excess, cells, that stays where it is: rounding of sums would pass less to and fro for ever.
+const NEGLIGIBLE: f64 = 10.0 * ROUNDING;
 
-/// A face by which excess may leave a pore.
+/// A face through which excess may leave a pore.
 #[derive(Clone, Copy)]
 struct Outlet {
-    way: Way,
-    /// What flows there.
-    flow: f64,
-    /// What came in on the opposite side and would go straight on.
+    neighbour: Neighbour,
+    /// Volume that the face sweeps out of the pore in this substep.
+    outflow: f64,
+    /// Share of what came in on the opposite side, which would go straight on through this face.
     straight: f64,
-    /// What came in there.
-    came: f64,
+    /// Volume that came in through this face.
+    inflow: f64,
     area: f64,
-    /// Room in the pore behind it, and whether that is full.
-    room: f64,
+    /// Volume that the neighbour can still take, and whether it is full.
+    free: f64,
     full: bool,
 }
 
-/// Passes what pores hold above their `capacities` on to their neighbours, all pores at once, so that their order does not
-/// count: in proportion to what flows there, to those with room before others, which pass it on. What finds no room where
-/// it flows goes back to where it came from. Pores that are `full` pass on nothing: their pressure does in the next step.
-/// `flux` takes what crosses each face.
+/// Passes what pores hold above their `capacities` on to their neighbours. All pores do so at once, so their order does not
+/// count. Pores that are `full` pass on nothing: their pressure does in the next step. `flux` is the volume through each face,
+/// to which this adds; `swept` is what the face velocities sweep.
 pub(super) fn overflow(
     mesh: &Mesh,
     volumes: &mut [f64],
@@ -35,56 +34,65 @@ pub(super) fn overflow(
     flux: &mut [f64],
 ) {
     let is_over =
-        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > NOTHING;
+        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > NEGLIGIBLE;
     let mut over: Vec<usize> = (0..mesh.pores.len())
         .filter(|&pore| is_over(volumes, pore))
         .collect();
-    for _ in 0..PASSES {
+    for _ in 0..MAX_SWEEPS {
         let mut passed: Vec<(usize, bool, f64)> = Vec::new();
         for &pore in &over {
             let excess = volumes[pore] - capacities[pore];
-            let room = |other: usize| match full[other] {
+            let free = |other: usize| match full[other] {
                 true => 0.0,
                 false => (capacities[other] - volumes[other]).max(0.0),
             };
-            passed.extend(shares(&ways(mesh, pore, room, full, swept, flux), excess));
+            passed.extend(shares(
+                &outlets(mesh, pore, free, full, swept, flux),
+                excess,
+            ));
         }
         if passed.is_empty() {
             return;
         }
         over.clear();
-        over.extend((passed.into_iter()).map(|passed| pass(mesh, volumes, flux, passed)));
+        over.extend((passed.into_iter()).map(|passed| move_through(mesh, volumes, flux, passed)));
         over.sort_unstable();
         over.dedup();
         over.retain(|&pore| is_over(volumes, pore));
     }
 }
 
-/// How much of an excess goes by each of the ways: as much as there is room for where it flows, then anywhere, and the rest
-/// to full pores where it flows, or back. What is sent on to others without room would only come to and fro. Little room takes little, so that room next to nothing does what none does.
-fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
+/// How much of an excess leaves through each outlet, as face, side and volume. It goes first where there is free volume,
+/// along the flow and then anywhere; the rest goes to full pores along the flow, then back where it came from, then
+/// anywhere. Passed on to other pores without free volume it would only come back. A neighbour never gets more than its free
+/// volume, so one with next to none makes no difference.
+fn shares(outlets: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
     type Weight = fn(&Outlet) -> f64;
-    let kinds: [(Weight, bool); 5] = [
-        (|way| way.flow + way.straight, true),
-        (|way| way.area, true),
-        (|way| if way.full { way.flow } else { 0.0 }, false),
-        (|way| way.came, false),
-        (|way| way.area, false),
+    // Weight of an outlet, and whether free volume bounds its share.
+    let stages: [(Weight, bool); 5] = [
+        (|outlet| outlet.outflow + outlet.straight, true),
+        (|outlet| outlet.area, true),
+        (
+            |outlet| if outlet.full { outlet.outflow } else { 0.0 },
+            false,
+        ),
+        (|outlet| outlet.inflow, false),
+        (|outlet| outlet.area, false),
     ];
-    let mut given = vec![0.0; ways.len()];
+    let mut given = vec![0.0; outlets.len()];
     let mut left = excess;
-    for (weight, to_room) in kinds {
-        let roomy = |&i: &usize| !to_room || ways[i].room > given[i];
-        let open: Vec<usize> = (0..ways.len()).filter(roomy).collect();
-        let all: f64 = open.iter().map(|&i| weight(&ways[i])).sum();
-        if all <= NOTHING {
+    for (weight, bounded) in stages {
+        let takes = |&i: &usize| !bounded || outlets[i].free > given[i];
+        let open: Vec<usize> = (0..outlets.len()).filter(takes).collect();
+        let all: f64 = open.iter().map(|&i| weight(&outlets[i])).sum();
+        if all <= NEGLIGIBLE {
             continue;
         }
         let mut passed = 0.0;
         for i in open {
-            let share = left * weight(&ways[i]) / all;
-            let share = if to_room {
-                share.min(ways[i].room - given[i])
+            let share = left * weight(&outlets[i]) / all;
+            let share = if bounded {
+                share.min(outlets[i].free - given[i])
             } else {
                 share
             };
@@ -92,41 +100,41 @@ fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
             passed += share;
         }
         left -= passed;
-        if left <= NOTHING {
+        if left <= NEGLIGIBLE {
             break;
         }
     }
-    (ways.iter().zip(given))
+    (outlets.iter().zip(given))
         .filter(|(_, given)| *given > 0.0)
-        .map(|(Outlet { way, .. }, given)| (way.face, way.up, given))
+        .map(|(Outlet { neighbour, .. }, given)| (neighbour.face, neighbour.up, given))
         .collect()
 }
 
-/// The faces of a pore.
-fn ways(
+/// The faces of a pore as outlets.
+fn outlets(
     mesh: &Mesh,
     pore: usize,
-    room: impl Fn(usize) -> f64,
+    free: impl Fn(usize) -> f64,
     full: &[bool],
     swept: &[f64],
     flux: &[f64],
 ) -> Vec<Outlet> {
-    let outlet = |way: Way| {
-        let (sign, area) = (way.sign(), mesh.area(way.face));
-        let straight: f64 = (mesh.faces_at(pore, way.axis, !way.up))
+    let outlet = |neighbour: Neighbour| {
+        let (sign, area) = (neighbour.sign(), mesh.area(neighbour.face));
+        let straight: f64 = (mesh.faces_at(pore, neighbour.axis, !neighbour.up))
             .map(|face| (sign * flux[face]).max(0.0))
             .sum();
-        let side = mesh.faces_at(pore, way.axis, way.up);
+        let side = mesh.faces_at(pore, neighbour.axis, neighbour.up);
         let side = side.map(|face| mesh.area(face));
         Outlet {
-            way,
-            flow: (sign * swept[way.face]).max(0.0),
+            neighbour,
+            outflow: (sign * swept[neighbour.face]).max(0.0),
             straight: straight * area / side.sum::<f64>(),
-            came: (-sign * flux[way.face]).max(0.0),
+            inflow: (-sign * flux[neighbour.face]).max(0.0),
             area,
-            room: room(way.beside),
-            full: full[way.beside],
+            free: free(neighbour.pore),
+            full: full[neighbour.pore],
         }
     };
-    mesh.ways(pore).map(outlet).collect()
+    mesh.neighbours(pore).map(outlet).collect()
 }

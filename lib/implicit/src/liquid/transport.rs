@@ -1,41 +1,41 @@
-//! Motion of liquid between pores: what crosses each face in a step.
+//! Advection of the volume fractions by the face velocities: donor and acceptor (docs/methods.md section 3.9).
 
 use rayon::prelude::*;
 
+use super::advect_water::advect_water;
 use super::overflow::overflow;
-use super::water::carry;
-use crate::geometry::{Mesh, Way};
+use crate::geometry::{Mesh, Neighbour};
 
-/// Least component of the surface's normal along a face's axis, over that aside, for which the face passes on what lies ahead:
-/// with less, faces along a surface would; with more, a front that is hardly inclined is smeared.
-const NORMAL: f64 = 0.7;
-/// Cells that liquid crosses at most between two looks at the surface: a front keeps its shape to first order in it, and
-/// looks cost next to nothing beside a solution.
-const CROSSED: f64 = 0.25;
+/// Least ratio of the surface normal's component along the flow to that across it for which the flux takes the acceptor's
+/// fraction. A smaller value would do so along surfaces parallel to the flow; a larger one smears fronts that are slightly
+/// inclined.
+const MIN_NORMAL: f64 = 0.7;
+/// Courant number of a substep of the advection. A front keeps its shape to first order in it, and substeps cost next to
+/// nothing compared with a solve.
+const SUBSTEP_CFL: f64 = 0.25;
 
-/// Volume, cells, that counts as none: what rounding leaves behind a front. A larger one would be liquid that is lost.
+/// Volume, cells, that counts as none: the residue of rounding behind a front. A larger one would ignore liquid.
 pub(crate) const TRACE: f64 = 1e-9;
-/// Part of a volume, or of a full cell, that is rounding: 45 units in the last place. With less, sums that are right never
-/// settle; with a thousand times as much, liquid goes astray.
+/// Relative rounding error of volumes: 45 units in the last place. With less, the sweeps below never end; with a thousand times
+/// as much, liquid is lost.
 pub(super) const ROUNDING: f64 = 1e-14;
-/// Passes after which what is left of an excess or a lack stays, and the water that goes through pores at once counts as it is:
-/// all that settle take fewer.
-pub(super) const PASSES: usize = 100;
+/// Bound on the sweeps that remove excess or negative volumes and that balance water; those that converge take fewer.
+pub(super) const MAX_SWEEPS: usize = 100;
 
-/// Liquid after a step.
+/// Liquid after an advection step.
 pub(crate) struct Moved {
-    /// Volume at no pressure in each pore, cells.
+    /// Liquid volume of each pore at zero pressure, cells.
     pub(crate) volumes: Vec<f64>,
-    /// Water in it, where that is kept.
+    /// Water volume of each pore; empty where water is not tracked.
     pub(crate) water: Vec<f64>,
-    /// Volume that left the domain, and the water in it.
+    /// Liquid volume that left the domain, and the water in it.
     pub(crate) lost: [f64; 2],
 }
 
-/// Moves the liquid, `volumes` at no pressure in each pore and the `water` in it or nothing, by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
-/// is `full` passes on what its velocities say. One that is partly filled passes on its share, or, where the surface is
-/// across the flow, what lies ahead until its own air is gone (donor and acceptor, Hirt & Nichols 1981,
-/// 10.1016/0021-9991(81)90145-5), and never more than it holds.
+/// Advects the liquid `volumes` (at zero pressure) and their `water` (may be empty) by the face velocities over `dt`, into
+/// pores that can hold `capacities`. The flux out of a `full` pore is u a dt. Out of a partly filled one it has the fraction
+/// of the donor, or, where the surface lies across the flow, that of the acceptor until the donor's air is used up (Hirt &
+/// Nichols 1981, 10.1016/0021-9991(81)90145-5), and is never more than the donor holds.
 pub(crate) fn transport(
     mesh: &Mesh,
     [volumes, water]: [&[f64]; 2],
@@ -45,8 +45,8 @@ pub(crate) fn transport(
     dt: f64,
 ) -> Moved {
     let fastest = velocity.iter().fold(0.0_f64, |most, v| v.abs().max(most));
-    // What rounding adds is no look more.
-    let parts = (fastest * dt / CROSSED - 1e-9).ceil().max(1.0);
+    // Rounding must not add a substep.
+    let parts = (fastest * dt / SUBSTEP_CFL - 1e-9).ceil().max(1.0);
     let swept: Vec<f64> = (0..mesh.faces.len())
         .into_par_iter()
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)
@@ -57,15 +57,21 @@ pub(crate) fn transport(
         lost: [0.0; 2],
     };
     for _ in 0..parts as usize {
-        look(mesh, &mut moved, full, capacities, &swept);
+        advect_substep(mesh, &mut moved, full, capacities, &swept);
     }
     moved
 }
 
-/// Moves the liquid on by the volumes that faces sweep.
-fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept: &[f64]) {
+/// One substep: advects the liquid by the volumes `swept` by the faces.
+fn advect_substep(
+    mesh: &Mesh,
+    moved: &mut Moved,
+    full: &[bool],
+    capacities: &[f64],
+    swept: &[f64],
+) {
     let (volumes, water) = (&mut moved.volumes, &mut moved.water);
-    let held = volumes.clone();
+    let volumes_before = volumes.clone();
     let pores = 0..mesh.pores.len();
     let fractions: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] {
@@ -74,7 +80,7 @@ fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept
         })
         .collect();
     let mut flux: Vec<f64> = (swept.par_iter().enumerate())
-        .map(|(face, &swept)| swept.signum() * passed(mesh, &fractions, face, swept))
+        .map(|(face, &swept)| swept.signum() * donor_acceptor(mesh, &fractions, face, swept))
         .collect();
     let shares: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] || volumes[pore] == 0.0 {
@@ -93,35 +99,37 @@ fn look(mesh: &Mesh, moved: &mut Moved, full: &[bool], capacities: &[f64], swept
         .for_each(|(pore, volume)| {
             *volume += net_inflow(mesh, &flux, pore);
         });
-    give_back(mesh, volumes, &mut flux);
+    return_overdraft(mesh, volumes, &mut flux);
     overflow(mesh, volumes, capacities, full, swept, &mut flux);
     if !water.is_empty() {
-        carry(mesh, &held, water, &flux);
+        advect_water(mesh, &volumes_before, water, &flux);
     }
     for (pore, volume) in volumes.iter_mut().enumerate() {
-        if mesh.is_beyond(mesh.cell(pore)) {
+        if mesh.is_ghost(mesh.cell(pore)) {
             moved.lost[0] += std::mem::take(volume);
             moved.lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
         }
     }
 }
 
-/// Gives pores that passed on more than they had, by the tolerance of the solution, back what is missing: from the pores that
-/// they passed it to, in proportion, which may lack it then in their turn.
-fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
-    for _ in 0..PASSES {
+/// Returns liquid to pores whose volume has become negative, which happens within the solver tolerance. It comes from the pores
+/// that received theirs, in proportion; these may then be negative in the next sweep.
+fn return_overdraft(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
+    for _ in 0..MAX_SWEEPS {
         let mut returned: Vec<(usize, bool, f64)> = Vec::new();
         for pore in (0..volumes.len()).filter(|&pore| volumes[pore] < -ROUNDING) {
-            let passed = |way: &Way| (way.sign() * flux[way.face]).max(0.0);
+            let passed = |neighbour: &Neighbour| (neighbour.sign() * flux[neighbour.face]).max(0.0);
             let part = (-volumes[pore] / outflow(mesh, flux, pore)).min(1.0);
-            let each = mesh.ways(pore);
-            returned.extend(each.map(|way| (way.face, way.up, part * passed(&way))));
+            let each = mesh.neighbours(pore);
+            returned.extend(
+                each.map(|neighbour| (neighbour.face, neighbour.up, part * passed(&neighbour))),
+            );
         }
         if returned.is_empty() {
             break;
         }
-        for (face, up, volume) in returned.into_iter().filter(|way| way.2 > 0.0) {
-            pass(mesh, volumes, flux, (face, up, -volume));
+        for (face, up, volume) in returned.into_iter().filter(|returned| returned.2 > 0.0) {
+            move_through(mesh, volumes, flux, (face, up, -volume));
         }
     }
     for volume in volumes.iter_mut() {
@@ -129,14 +137,14 @@ fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
     }
 }
 
-/// Passes a volume on by a face that is on the high (`up`) or low side of the pore which it leaves; that pore enters.
-pub(super) fn pass(
+/// Moves a volume through a face that is on the high (`up`) or low side of the donor; returns the acceptor.
+pub(super) fn move_through(
     mesh: &Mesh,
     volumes: &mut [f64],
     flux: &mut [f64],
     (face, up, volume): (usize, bool, f64),
 ) -> usize {
-    let [low, high] = mesh.faces[face].ends();
+    let [low, high] = mesh.faces[face].pores();
     let (from, to) = if up { (low, high) } else { (high, low) };
     volumes[from] -= volume;
     volumes[to] += volume;
@@ -144,22 +152,22 @@ pub(super) fn pass(
     to
 }
 
-/// Change of the volume fraction across a pore along each axis, from neighbour to neighbour.
+/// Difference of the volume fraction between the neighbours of a pore on both sides along each axis.
 fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
     std::array::from_fn(|axis| {
         let faces = [false, true].map(|up| mesh.faces_at(pore, axis, up));
         let change = |face: usize| {
-            let [low, high] = mesh.faces[face].ends();
+            let [low, high] = mesh.faces[face].pores();
             fractions[high] - fractions[low]
         };
         faces.into_iter().flatten().map(change).sum()
     })
 }
 
-/// Liquid in the volume that a face sweeps.
-fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
+/// Liquid in the volume that a face sweeps out of its donor, by the donor's fraction or the acceptor's.
+fn donor_acceptor(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
     let axis = usize::from(mesh.faces[face].axis);
-    let [low, high] = mesh.faces[face].ends();
+    let [low, high] = mesh.faces[face].pores();
     let (donor, next, sign) = match swept > 0.0 {
         true => (low, high, 1.0),
         false => (high, low, -1.0),
@@ -169,17 +177,17 @@ fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
         return own * swept;
     }
     let gradient = gradient(mesh, fractions, donor);
-    // Change of the fraction along the flow, from the pore behind to the pore ahead.
+    // Difference of the fraction along the flow, from the pore behind the donor to the acceptor.
     let change = sign * gradient[axis];
     let behind = ahead - change;
-    let aside = (0..3)
+    let transverse = (0..3)
         .filter(|&a| a != axis)
         .map(|a| gradient[a] * gradient[a])
         .sum::<f64>()
         .sqrt();
-    // Air with liquid before and behind it is no surface; it stays behind.
+    // Air with liquid on both sides is a bubble, not a surface, and is left behind.
     let hole = own <= ahead && own <= behind;
-    if hole || change == 0.0 || change.abs() < NORMAL * aside {
+    if hole || change == 0.0 || change.abs() < MIN_NORMAL * transverse {
         return own * swept;
     }
     let volume = mesh.volume(donor);
@@ -187,17 +195,17 @@ fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
     (ahead * swept + ((1.0 - ahead) * swept - air).max(0.0)).min(own * volume)
 }
 
-/// What leaves a pore.
+/// Sum of the fluxes out of a pore.
 fn outflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
     let out = mesh
-        .ways(pore)
-        .map(|way| (way.sign() * flux[way.face]).max(0.0));
+        .neighbours(pore)
+        .map(|neighbour| (neighbour.sign() * flux[neighbour.face]).max(0.0));
     out.sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
-/// What comes into a pore less what leaves it.
+/// Sum of the fluxes into a pore less those out of it.
 fn net_inflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
-    mesh.ways(pore)
-        .map(|way| -way.sign() * flux[way.face])
+    mesh.neighbours(pore)
+        .map(|neighbour| -neighbour.sign() * flux[neighbour.face])
         .sum()
 }

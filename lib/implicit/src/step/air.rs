@@ -1,4 +1,4 @@
-//! Conditions where liquid ends in a step: menisci, pockets of air, liquid torn by tension.
+//! Boundary conditions at the liquid's surface in a step: menisci, pockets of air, liquid torn by tension; and the air's state.
 
 use physics::{Array, Boundary, Saved, restored};
 
@@ -7,20 +7,20 @@ use crate::air::{Air, Gas};
 use crate::geometry::DRIFT;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
-/// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
-const HELD: &str = "air";
+/// Names of the checkpoint arrays of the gas in each pore, and of its counts.
+const AIR: &str = "air";
 const COUNTS: &str = "air_counts";
 
-/// The air of a run, from step to step.
+/// The air's state between steps.
 #[derive(Clone, Debug, Default)]
-pub(super) struct HeldAir {
-    /// Absolute pressure over its unit times volume in each pore; empty where air has no pressure.
-    pub(super) of: Vec<f64>,
-    /// Pockets of the last step, and millionths of their air that lie under liquid, without a pressure.
+pub(super) struct AirState {
+    /// Gas in each pore, as absolute pressure (over the unit of viscosity) times volume; empty where all air is ambient.
+    pub(super) mass: Vec<f64>,
+    /// Pockets of the last step, and the gas covered by liquid, without a pressure, in millionths of all that is closed off.
     pockets: u64,
     covered: u64,
-    /// Steps whose air did not come to its pressure.
-    pub(super) astray: u64,
+    /// Steps at whose end a pocket did not obey the gas law.
+    pub(super) unsettled: u64,
 }
 
 impl Implicit {
@@ -32,17 +32,17 @@ impl Implicit {
             .collect()
     }
 
-    /// The air at the start: all is outside.
-    pub(super) fn first_air(&self) -> HeldAir {
+    /// The air at the start: all has ambient pressure.
+    pub(super) fn first_air(&self) -> AirState {
         let outside = |gas: Gas| self.void().iter().map(|void| gas.outside * void).collect();
-        HeldAir {
-            of: self.setup.gas.map_or(Vec::new(), outside),
-            ..HeldAir::default()
+        AirState {
+            mass: self.setup.gas.map_or(Vec::new(), outside),
+            ..AirState::default()
         }
     }
 
-    /// The pockets of a step of `dt` (s), about their volumes at its start, where air has pressures.
-    pub(super) fn closed_off(
+    /// The pockets of a step of `dt` (s), linearised about their volumes at its start; `None` where all air is ambient.
+    pub(super) fn air_pockets(
         &self,
         unknowns: &Unknowns,
         fractions: &[f64],
@@ -54,8 +54,8 @@ impl Implicit {
             |pore| unknowns.has_pressure(pore),
             |pore| fractions[pore] >= FULL,
             &self.void(),
-            &self.state.air.of,
-            // With a clamp, its body leaves room.
+            &self.state.air.mass,
+            // A clamped body does not seal the sides normal to y.
             self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
         );
         for pocket in air.pockets.iter_mut().chain(&mut air.dry) {
@@ -64,7 +64,7 @@ impl Implicit {
         Some(air)
     }
 
-    /// What the liquid of a step meets where it ends; its `viscosity` is over the unit.
+    /// The boundary conditions at the surface of the liquid; `viscosity` is that of the liquid over the unit.
     pub(super) fn fronts(
         &self,
         unknowns: &Unknowns,
@@ -91,9 +91,9 @@ impl Implicit {
         let wetting = wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
             cosine: wetting.contact_angle.cos(),
-            slowing: setup.settings.dynamic_angle * viscosity,
+            dynamic_coefficient: setup.settings.dynamic_angle * viscosity,
             dt,
-            shorter: match self.state.steps {
+            step_ratio: match self.state.steps {
                 0 => 1.0,
                 _ => (self.state.dt / dt).min(1.0),
             },
@@ -103,8 +103,8 @@ impl Implicit {
         Fronts::new(geometry, (unknowns, torn), around, wetting, before)
     }
 
-    /// Finds anew which pores are torn, those whose liquid would carry more tension than it can and comes apart; whether they
-    /// are others than before.
+    /// Updates which pores are `torn`, that is, have liquid under more tension than it bears (docs/methods.md section 3.10).
+    /// Returns whether any changed.
     pub(super) fn tear(
         &self,
         unknowns: &Unknowns,
@@ -118,24 +118,26 @@ impl Implicit {
         let lowest = -tension / self.setup.units.viscosity;
         let mesh = &self.mesh;
         let outflow = |pore: usize| -> f64 {
-            let each = mesh.ways(pore);
-            each.map(|way| way.sign() * mesh.area(way.face) * flow.velocity[way.face])
-                .sum()
+            let each = mesh.neighbours(pore);
+            each.map(|neighbour| {
+                neighbour.sign() * mesh.area(neighbour.face) * flow.velocity[neighbour.face]
+            })
+            .sum()
         };
-        let mut others = false;
+        let mut changed = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
                 true => outflow(pore) * dt > DRIFT,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
-            others |= now != *torn;
+            changed |= now != *torn;
             *torn = now;
         }
-        others
+        changed
     }
 
-    /// Takes in the air of a step of `dt` (s) that is over.
-    pub(super) fn keep_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
+    /// Stores the air at the end of a step of `dt` (s); `settled` says whether it obeys the gas law.
+    pub(super) fn store_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
         let flow = &self.state.flow;
         for pocket in air.pockets.iter_mut() {
             let pressure = flow.pressure[pocket.pores[0] as usize];
@@ -148,15 +150,15 @@ impl Implicit {
         }
         let all = air.pockets.iter().chain(&air.dry);
         let all: f64 = all.map(|pocket| pocket.mass).sum::<f64>() + air.covered;
-        self.state.air = HeldAir {
+        self.state.air = AirState {
             pockets: (air.pockets.len() + air.dry.len()) as u64,
             covered: (1e6 * air.covered / all.max(f64::MIN_POSITIVE)).round() as u64,
-            astray: self.state.air.astray + u64::from(!settled),
-            of: air.after(&self.void(), gas.outside),
+            unsettled: self.state.air.unsettled + u64::from(!settled),
+            mass: air.mass_after_step(&self.void(), gas.outside),
         };
     }
 
-    /// What a summary counts of the air, where it has pressures.
+    /// Counts of the air for the summary.
     pub(super) fn air_counts(&self) -> Vec<(&'static str, u64)> {
         let air = &self.state.air;
         match self.setup.gas {
@@ -167,42 +169,45 @@ impl Implicit {
                     "millionths of the air closed off that lie under liquid",
                     air.covered,
                 ),
-                ("steps whose air did not come to its pressure", air.astray),
+                (
+                    "steps whose air did not come to its pressure",
+                    air.unsettled,
+                ),
             ],
         }
     }
 
-    /// The air as arrays of a checkpoint.
+    /// The air's checkpoint arrays.
     pub(super) fn save_air(&self) -> Vec<(&'static str, Array)> {
         let air = &self.state.air;
-        let counts = [air.pockets, air.covered, air.astray].map(|count| count as f64);
+        let counts = [air.pockets, air.covered, air.unsettled].map(|count| count as f64);
         match self.setup.gas {
             None => Vec::new(),
             Some(_) => vec![
-                (HELD, Array::F64(air.of.clone())),
+                (AIR, Array::F64(air.mass.clone())),
                 (COUNTS, Array::F64(counts.to_vec())),
             ],
         }
     }
 
-    /// The air of a checkpoint of so many pores.
+    /// The air's state from a checkpoint with this number of pores.
     ///
     /// # Errors
-    /// Where it is absent, or of no run of this scene.
-    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<HeldAir, String> {
+    /// Where it is absent or does not belong to this scene.
+    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<AirState, String> {
         if self.setup.gas.is_none() {
-            return Ok(HeldAir::default());
+            return Ok(AirState::default());
         }
-        let (of, counts) = (saved.f64s(HELD)?, saved.f64s(COUNTS)?);
-        restored::check_finite(of, HELD)?;
+        let (of, counts) = (saved.f64s(AIR)?, saved.f64s(COUNTS)?);
+        restored::check_finite(of, AIR)?;
         restored::check_finite(counts, COUNTS)?;
         let least = of.iter().chain(counts).copied().fold(0.0, f64::min);
         match counts {
-            &[pockets, covered, astray] if of.len() == pores && least >= 0.0 => Ok(HeldAir {
-                of: of.to_vec(),
+            &[pockets, covered, unsettled] if of.len() == pores && least >= 0.0 => Ok(AirState {
+                mass: of.to_vec(),
                 pockets: pockets as u64,
                 covered: covered as u64,
-                astray: astray as u64,
+                unsettled: unsettled as u64,
             }),
             _ => Err("the checkpoint's air is not that of this scene".into()),
         }

@@ -1,37 +1,36 @@
-//! Speed of the body that closes the gap: constant, or that of a clamp under load control.
+//! Speed of the moving body: constant, or that of a clamp under load control or a press programme.
 
 use physics::{CONTROLLED, Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
 
-use crate::settings::MISSED;
+use crate::settings::ITERATION_TOLERANCE;
 
-/// Speed of the clamp.
+/// Control of the clamp's speed.
 #[derive(Clone, Copy, Debug, Default)]
 enum Control {
-    /// Nothing is clamped, or at constant speed.
+    /// No clamp, or one at constant speed.
     #[default]
     Free,
-    /// At full speed until that would exceed the limit; held at the limit then, and at full speed again
-    /// where that no longer reaches it.
-    Limit(Hold),
-    /// By the case's PID, after each step.
+    /// Full speed while the pressure is below the limit; else the speed that keeps the limit.
+    Limit(LoadControl),
+    /// The case's PID sets the speed after each step.
     Pid(PidControl),
 }
 
-/// A clamp under its own load control.
+/// Load control: an upper limit on pressure, which is active or not.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hold {
-    /// Largest speed, and the least, below zero where the clamp gives way, m/s.
+pub(super) struct LoadControl {
+    /// Largest and least speed, m/s; the least is negative where the clamp may retreat.
     speeds: [f64; 2],
-    /// Pressure limit, and the least that excess over it is measured by, Pa.
+    /// Pressure limit, and the lower bound on its scale of error, Pa.
     pub(super) limit: f64,
-    least: f64,
-    held: bool,
-    /// Whether it is to press no more.
+    min_scale: f64,
+    active: bool,
+    /// Whether the stage releases the pressure.
     releases: bool,
 }
 
-impl Hold {
-    /// That of the stage that is on.
+impl LoadControl {
+    /// The control of the programme's current stage.
     fn of(programme: &PressRun) -> Self {
         let stage = programme.stage();
         let full = match programme.is_closed() {
@@ -42,20 +41,20 @@ impl Hold {
         Self {
             speeds: [full, -stage.speed],
             limit: programme.set_pressure(0.0),
-            // A release holds nothing, by which no residual can be measured.
-            least: MISSED * programme.largest(),
-            held: releases,
+            // A release has a limit of zero, which is no scale for a residual.
+            min_scale: ITERATION_TOLERANCE * programme.largest(),
+            active: releases,
             releases,
         }
     }
 
-    /// What excess over the limit is measured by, Pa.
+    /// Scale of errors in the pressure, Pa.
     pub(super) fn scale(&self) -> f64 {
-        self.limit.max(self.least)
+        self.limit.max(self.min_scale)
     }
 }
 
-/// The drive of the body that closes the gap.
+/// The drive of the moving body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClampDrive {
     control: Control,
@@ -63,8 +62,8 @@ pub(super) struct ClampDrive {
     programme: Option<PressRun>,
     /// Closing speed now, m/s.
     pub(super) speed: f64,
-    /// Steps that did not keep the pressure limit, and the pressure of the last step if it is one, Pa.
-    pub(super) broken: (u64, f64),
+    /// Number of steps that exceeded the pressure limit, and the pressure of the last step if it did, Pa.
+    pub(super) violations: (u64, f64),
 }
 
 impl ClampDrive {
@@ -77,15 +76,15 @@ impl ClampDrive {
     ) -> Self {
         let limited = clamp.and_then(|clamp| Some((clamp, clamp.max_pressure?)));
         let control = match (&programme, limited) {
-            (Some(programme), _) => Control::Limit(Hold::of(programme)),
+            (Some(programme), _) => Control::Limit(LoadControl::of(programme)),
             (None, Some((clamp, _))) if clamp.pid.is_some() => {
                 Control::Pid(PidControl::new(clamp, acoustic_time))
             }
-            (None, Some((clamp, limit))) => Control::Limit(Hold {
+            (None, Some((clamp, limit))) => Control::Limit(LoadControl {
                 speeds: [clamp.closing_speed, 0.0],
                 limit,
-                least: 0.0,
-                held: false,
+                min_scale: 0.0,
+                active: false,
                 releases: false,
             }),
             _ => Control::Free,
@@ -95,102 +94,104 @@ impl ClampDrive {
             control,
             speed: programme.as_ref().map_or(full, first),
             programme,
-            broken: (0, 0.0),
+            violations: (0, 0.0),
         }
     }
 
-    /// The press programme and where it is.
+    /// The press programme and its state.
     pub(super) fn programme(&self) -> Option<&PressRun> {
         self.programme.as_ref()
     }
 
-    /// Whether the clamp has gone all its way in a programme that goes on.
+    /// Whether a programme goes on with the clamp at the end of its travel.
     pub(super) fn is_closed(&self) -> bool {
         self.programme.as_ref().is_some_and(PressRun::is_closed)
     }
 
-    /// Speed, m/s, at which the clamp gives way where it does at once.
-    pub(super) fn giving_way(&self) -> Option<f64> {
+    /// Retreat speed of the clamp, m/s, in a stage that begins below the pressure reached, so that the clamp may retreat at
+    /// once.
+    pub(super) fn retreat_speed(&self) -> Option<f64> {
         let programme = self.programme.as_ref().filter(|run| run.gives_way());
         programme.map(|run| run.stage().speed)
     }
 
-    /// A limit of a step within the stage that is on, for a clamp that has travelled `travel` (m).
-    pub(super) fn within(&self, limit: StepLimit, travel: f64) -> StepLimit {
+    /// `limit`, shortened to the current stage, for a clamp that has travelled `travel` (m).
+    pub(super) fn bounded_by_stage(&self, limit: StepLimit, travel: f64) -> StepLimit {
         let programme = self.programme.as_ref();
         programme.map_or(limit, |programme| programme.within(limit, travel))
     }
 
-    /// Sets the pressure limit to that `ahead` (s) of now. The speed of a held clamp is expected to change with it: viscous
-    /// liquid answers a force in proportion.
-    pub(super) fn aim(&mut self, ahead: f64) {
-        let (Some(programme), Control::Limit(hold)) = (&self.programme, &mut self.control) else {
+    /// Sets the pressure limit to that of the programme `ahead` (s) of now. Under an active limit the estimated speed
+    /// changes in proportion, as that of viscous flow does.
+    pub(super) fn set_limit_ahead(&mut self, ahead: f64) {
+        let (Some(programme), Control::Limit(control)) = (&self.programme, &mut self.control)
+        else {
             return;
         };
         let limit = programme.set_pressure(ahead);
-        let factor = limit / hold.limit;
-        hold.limit = limit;
-        if hold.held && factor > 0.0 && factor.is_finite() {
-            self.speed = (self.speed * factor).min(hold.speeds[0]);
+        let factor = limit / control.limit;
+        control.limit = limit;
+        if control.active && factor > 0.0 && factor.is_finite() {
+            self.speed = (self.speed * factor).min(control.speeds[0]);
         }
     }
 
-    /// What the clamp is held at, its speed being unknown.
-    pub(super) fn held(&self) -> Option<Hold> {
+    /// The load control if its limit is active, so that the speed is an unknown.
+    pub(super) fn active_load_control(&self) -> Option<LoadControl> {
         match self.control {
-            Control::Limit(hold) if hold.held => Some(hold),
+            Control::Limit(control) if control.active => Some(control),
             _ => None,
         }
     }
 
-    /// The limit where `pressure` (Pa) at full speed exceeds it: the clamp is held from now
-    /// on, and `speed` is a guess at its speed.
-    pub(super) fn exceeded(&mut self, pressure: f64) -> Option<Hold> {
-        let Control::Limit(hold) = &mut self.control else {
+    /// Activates the limit if `pressure` (Pa) at full speed exceeds it, and estimates the speed at the limit. Returns the load
+    /// control if it did.
+    pub(super) fn activate_if_exceeded(&mut self, pressure: f64) -> Option<LoadControl> {
+        let Control::Limit(control) = &mut self.control else {
             return None;
         };
-        if hold.held || pressure <= hold.limit + CONTROLLED * hold.scale() {
+        if control.active || pressure <= control.limit + CONTROLLED * control.scale() {
             return None;
         }
-        hold.held = true;
-        self.speed *= hold.limit / pressure;
-        Some(*hold)
+        control.active = true;
+        self.speed *= control.limit / pressure;
+        Some(*control)
     }
 
-    /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
-    /// moves at the nearest speed that it can: it goes no faster than at full speed, and without a
-    /// programme stands where compressed liquid would open it.
-    pub(super) fn follow(&mut self, speed: f64) -> bool {
-        let Control::Limit(hold) = &mut self.control else {
+    /// Sets the speed to the nearest that the clamp can have to `speed` (m/s), that of the limit; returns whether they are
+    /// equal. Its bounds are the full speed, at which the limit becomes inactive, and zero without a programme: compressed
+    /// liquid does not open the clamp.
+    pub(super) fn accept_speed(&mut self, speed: f64) -> bool {
+        let Control::Limit(control) = &mut self.control else {
             return true;
         };
-        let [full, least] = hold.speeds;
-        hold.held = speed < full;
+        let [full, least] = control.speeds;
+        control.active = speed < full;
         self.speed = speed.clamp(least, full);
         self.speed == speed
     }
 
-    /// Takes in the pressure (Pa) of a step of `dt` (s) that is over, after which the clamp has travelled
+    /// Updates the control by the `pressure` (Pa) of a completed step of `dt` (s), after which the clamp has travelled
     /// `travel` (m).
     pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
         let bounds = match &self.control {
-            // A release has no limit: air that expands presses the body on as fast as it gives way.
-            Control::Limit(hold) if hold.releases => None,
-            Control::Limit(hold) => Some((hold.limit, hold.scale())),
+            // A release has no limit to exceed: expanding air keeps pressing on a retreating body.
+            Control::Limit(control) if control.releases => None,
+            Control::Limit(control) => Some((control.limit, control.scale())),
             Control::Pid(pid) => pid.limit().map(|limit| (limit, limit)),
             Control::Free => None,
         };
         if bounds.is_some_and(|(limit, scale)| breaks(pressure, limit, scale)) {
-            self.broken = (self.broken.0 + 1, pressure);
+            self.violations = (self.violations.0 + 1, pressure);
         } else {
-            self.broken.1 = 0.0;
+            self.violations.1 = 0.0;
         }
         match (&mut self.control, &mut self.programme) {
             (Control::Pid(pid), _) => {
                 pid.observe(pressure, dt);
                 self.speed = pid.speed();
             }
-            (Control::Limit(hold), Some(programme)) => {
+            (Control::Limit(control), Some(programme)) => {
                 let step = PressStep {
                     dt_s: dt,
                     speed: self.speed,
@@ -198,17 +199,18 @@ impl ClampDrive {
                     pressure,
                 };
                 let next = programme.observe(step);
-                let before = *hold;
-                *hold = Hold::of(programme);
+                let before = *control;
+                *control = LoadControl::of(programme);
                 let kind = programme.stage().kind;
-                if !next || before.held && kind != Press::Approach && before.limit > 0.0 {
-                    // Speed and limit of the last step say what those of the next are.
-                    (hold.held, hold.limit) = (before.held || hold.held, before.limit);
-                    self.speed = self.speed.min(hold.speeds[0]);
+                if !next || before.active && kind != Press::Approach && before.limit > 0.0 {
+                    // The speed and the limit of the last step are the estimate for the next.
+                    (control.active, control.limit) =
+                        (before.active || control.active, before.limit);
+                    self.speed = self.speed.min(control.speeds[0]);
                 } else {
                     self.speed = match kind {
                         Press::Release => 0.0,
-                        _ => hold.speeds[0],
+                        _ => control.speeds[0],
                     };
                 }
             }
@@ -216,38 +218,42 @@ impl ClampDrive {
         }
     }
 
-    /// The changing part, for checkpoints.
+    /// The state for checkpoints.
     pub(super) fn state(&self) -> [f64; 7] {
-        let rest = match (&self.control, &self.programme) {
+        let control = match (&self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.state(),
-            (Control::Limit(hold), Some(_)) if hold.limit.is_finite() => [hold.limit, 0.0, 0.0],
+            (Control::Limit(control), Some(_)) if control.limit.is_finite() => {
+                [control.limit, 0.0, 0.0]
+            }
             _ => [0.0; 3],
         };
-        let held = f64::from(u8::from(self.held().is_some()));
-        let (steps, pressure) = (self.broken.0 as f64, self.broken.1);
-        [self.speed, held, steps, pressure, rest[0], rest[1], rest[2]]
+        let active = f64::from(u8::from(self.active_load_control().is_some()));
+        let (steps, pressure) = (self.violations.0 as f64, self.violations.1);
+        [
+            self.speed, active, steps, pressure, control[0], control[1], control[2],
+        ]
     }
 
-    /// Goes back to a saved changing part, of a programme that is back where it was.
-    pub(super) fn set_state(&mut self, [speed, was_held, steps, pressure, a, b, c]: [f64; 7]) {
-        (self.speed, self.broken) = (speed, (steps as u64, pressure));
+    /// Restores a saved state; that of the programme must have been restored before.
+    pub(super) fn set_state(&mut self, [speed, was_active, steps, pressure, a, b, c]: [f64; 7]) {
+        (self.speed, self.violations) = (speed, (steps as u64, pressure));
         match (&mut self.control, &self.programme) {
             (Control::Pid(pid), _) => pid.set_state([a, b, c]),
-            (Control::Limit(hold), programme) => {
+            (Control::Limit(control), programme) => {
                 if let Some(programme) = programme {
-                    *hold = Hold::of(programme);
-                    hold.limit = a;
+                    *control = LoadControl::of(programme);
+                    control.limit = a;
                 }
-                hold.held = was_held != 0.0;
+                control.active = was_active != 0.0;
             }
             (Control::Free, _) => {}
         }
     }
 
-    /// Goes back to a saved place in the programme.
+    /// Restores the saved state of the programme.
     ///
     /// # Errors
-    /// A sentence where no run of it saves that.
+    /// A sentence where the state is none of this programme's.
     pub(super) fn set_programme(&mut self, state: &[f64]) -> Result<(), String> {
         (self.programme.as_mut()).map_or(Ok(()), |programme| programme.set_state(state))
     }
@@ -267,19 +273,22 @@ mod tests {
             pid: None,
         };
         let mut drive = ClampDrive::new(Some(clamp), None, 1e-9, 2.0);
-        assert!(drive.exceeded(1.004e6).is_none());
-        let limit = |hold: Option<Hold>| hold.map(|hold| hold.limit);
-        assert_eq!(limit(drive.exceeded(1.006e6)), Some(1e6));
-        assert!(!drive.follow(-1.0));
-        assert_eq!((drive.speed, limit(drive.held())), (0.0, Some(1e6)));
+        assert!(drive.activate_if_exceeded(1.004e6).is_none());
+        let limit = |control: Option<LoadControl>| control.map(|control| control.limit);
+        assert_eq!(limit(drive.activate_if_exceeded(1.006e6)), Some(1e6));
+        assert!(!drive.accept_speed(-1.0));
+        assert_eq!(
+            (drive.speed, limit(drive.active_load_control())),
+            (0.0, Some(1e6))
+        );
         let broken = [1.019e6, 1.021e6, 1.03e6, 1e6].map(|pressure| {
             drive.observe(pressure, 1e-9, 0.0);
-            drive.broken
+            drive.violations
         });
         assert_eq!(broken, [(0, 0.0), (1, 1.021e6), (2, 1.03e6), (2, 0.0)]);
     }
 
-    /// Air presses on a body that gives way as fast as it can; in a hold the same breaks the limit.
+    /// Expanding air presses on a body that retreats at full speed; in a hold the same pressure exceeds the limit.
     #[test]
     fn a_release_has_no_limit_to_break() {
         let broken = [Press::Hold, Press::Release].map(|kind| {
@@ -294,10 +303,10 @@ mod tests {
             };
             let programme = PressRun::new(vec![stage], 1e-5);
             let mut drive = ClampDrive::new(None, Some(programme), 1e-9, 1e-3);
-            drive.aim(1.0);
-            drive.follow(-2e-3);
+            drive.set_limit_ahead(1.0);
+            drive.accept_speed(-2e-3);
             drive.observe(2e6, 1.0, 0.0);
-            drive.broken.0
+            drive.violations.0
         });
         assert_eq!(broken, [1, 0]);
     }

@@ -14,22 +14,22 @@ impl Implicit {
         ))
     }
 
-    /// Attempts at a step of which none was short enough; the last one because the liquid `dries`.
-    pub(super) fn no_step(&self, dries: bool) -> Failure {
+    /// The failure after the last attempt at a step was too long still; `dries` if because of the loss of water.
+    pub(super) fn no_acceptable_length(&self, dries: bool) -> Failure {
         let why = match dries {
             true => "the liquid dries too fast for any: a smaller uptake, a larger diffusivity or a flatter \
                      viscosity_by_solids is needed"
                 .to_owned(),
             false => format!(
-                "the liquid is the faster the shorter the step, {:.3e} m/s at last: a wall may push liquid that is \
-                 enclosed on all sides",
-                self.state.fastest * self.setup.units.cell_m
+                "the liquid's speed grows as the step gets shorter, {:.3e} m/s in the last attempt: a wall may push \
+                 liquid that is enclosed on all sides",
+                self.state.courant_speed * self.setup.units.cell_m
             ),
         };
         self.failure(&format!("no acceptable time step was found: {why}"))
     }
 
-    /// A system of the step that was not solved.
+    /// The message for a linear system that was not solved.
     pub(super) fn unsolved(&self, error: &SolveError) -> String {
         match error {
             SolveError::NotFinite { .. } => format!(
@@ -44,12 +44,12 @@ impl Implicit {
     }
 }
 
-/// What to change in a case with cells of `k` voxels.
+/// What to change in a case, with cells of `k` voxels.
 fn advice(cause: Cause, k: usize) -> String {
     match cause {
         Cause::Unbalanced { cells } => format!(
-            "walls move into {cells} cells of liquid that is enclosed and has no way out but to be compressed; a \
-             max_pressure, a way out, less travel, a lower bulk_modulus or an earlier end is needed"
+            "walls move into {cells} cells of enclosed liquid, which has no outlet and can only be compressed; a \
+             max_pressure, an outlet, less travel, a lower bulk_modulus or an earlier end is needed"
         ),
         Cause::Stiff { ratio } => format!(
             "viscous stress is {ratio:.0e} times what compresses the liquid in a step, eta/(K dt): a lower viscosity, a \

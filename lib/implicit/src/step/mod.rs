@@ -1,15 +1,15 @@
-//! The scheme, and the order of one step.
+//! The scheme and the order of a step (docs/methods.md section 3.1).
 
 mod air;
 mod clamp;
+mod completion;
 mod compression;
 mod drive;
 mod exchange;
 mod failure;
-mod fit;
-mod follow;
-mod middle;
+mod mid_step;
 mod output;
+mod remesh;
 mod scheme;
 mod setup;
 mod solve;
@@ -23,50 +23,50 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::clock::{Clock, Stage};
 use crate::geometry::Mesh;
 use crate::settings::Settings;
-use crate::system::{Edges, Flow, Links};
-use crate::water::Walls;
-use air::HeldAir;
+use crate::system::{Edges, Flow, WallCouplings};
+use crate::water::AbsorbingWalls;
+use air::AirState;
+use completion::courant_speed;
 use drive::ClampDrive;
-use follow::fastest;
 use setup::Setup;
-use water::Wet;
+use water::WaterBalance;
 
-/// Attempts at a step of acceptable length; the second nearly always is.
-const ATTEMPTS: usize = 8;
-/// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at: so few steps are
-/// solved twice.
-const EXCESS: f64 = 1.1;
-const AIM: f64 = 0.95;
-/// Most that cure changes ln(viscosity) by in a step, and what one aims at where the liquid dries: its middle then differs from
-/// the mean of 1/viscosity by 0.17 %.
-pub(crate) const THICKENS: f64 = 0.2;
-/// Most that a step grows by where menisci are held: they break loose from rest, where no speed tells how long a step may be, and
-/// steps that may grow at once come no nearer to rest (docs/decisions/menisci.md).
-const GROWTH: f64 = 2.0;
+/// Bound on the attempts at a step; the second nearly always has an acceptable length.
+const MAX_ATTEMPTS: usize = 8;
+/// Factor by which a step may exceed the Courant number, and the part of that number which the next attempt aims at: so few
+/// steps are solved twice.
+const CFL_EXCESS: f64 = 1.1;
+const CFL_TARGET: f64 = 0.95;
+/// Largest change of ln(viscosity) in a step by cure, and the target by loss of water: 1/viscosity in the middle of the step
+/// then differs from its mean by 0.17 %.
+pub(crate) const LN_VISCOSITY_STEP: f64 = 0.2;
+/// Largest ratio of successive step lengths with menisci. A pinned meniscus breaks loose from rest, where no speed bounds the
+/// step, and steps that grow at once do not settle to rest (docs/decisions/menisci.md).
+const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// The implicit scheme on a scene.
 pub struct Implicit {
     setup: Setup,
     state: State,
     mesh: Mesh,
-    links: Links,
+    couplings: WallCouplings,
     edges: Edges,
-    /// Walls of the mesh that take water.
-    walls: Option<Walls>,
-    /// Height of the gap between steps, cells; in a step, the mesh has that in its middle.
+    /// Absorbing walls of the mesh.
+    absorbing_walls: Option<AbsorbingWalls>,
+    /// Height of the gap between steps, cells. During a step the mesh has the height of its middle.
     height: f64,
     solver: SaddleSolver,
     clock: Clock,
 }
 
-/// What changes from step to step.
+/// The state that changes from step to step.
 #[derive(Default)]
 struct State {
-    /// Liquid in each pore at no pressure, cells.
+    /// Liquid volume of each pore at zero pressure, cells.
     volumes: Vec<f64>,
     flow: Flow,
     drive: ClampDrive,
-    air: HeldAir,
+    air: AirState,
     /// Displacement of each body, m.
     displacement: Vec<[f64; 3]>,
     /// Clamp travel, m.
@@ -75,28 +75,28 @@ struct State {
     steps: u64,
     /// Length of the last step, s.
     dt: f64,
-    /// Fastest flow, cells/s, and by what factor it is expected to be faster in the next step.
-    fastest: f64,
+    /// Flow speed of the last step for the Courant number, cells/s, and its expected growth to the next step, a factor.
+    courant_speed: f64,
     growth: f64,
-    /// Liquid that left the domain, cells.
+    /// Liquid volume that left the domain, cells.
     lost: f64,
     /// Viscous dissipation, over the unit of viscosity.
-    power: f64,
-    /// Steps whose passes did not settle.
+    dissipation: f64,
+    /// Steps whose iterations did not converge.
     unsettled: u64,
-    /// Of a liquid that loses water.
-    wet: Option<Wet>,
+    /// The water balance of a liquid that loses water.
+    water: Option<WaterBalance>,
 }
 
 impl Implicit {
-    /// The scheme for `scene`.
+    /// Sets up the scheme for `scene`.
     ///
     /// # Errors
     /// A sentence on what this scheme cannot do with the scene or the settings.
     pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
-        let wet = setup.wet(&volumes);
+        let balance = setup.initial_water(&volumes);
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
@@ -112,9 +112,9 @@ impl Implicit {
                 flow,
                 drive,
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
-                fastest: speed,
+                courant_speed: speed,
                 growth: 1.0,
-                wet,
+                water: balance,
                 ..State::default()
             },
             solver: SaddleSolver::new(SaddleOptions {
@@ -124,36 +124,36 @@ impl Implicit {
             clock: Clock::default(),
             height: mesh.rows().height,
             edges: Edges::default(),
-            walls: None,
+            absorbing_walls: None,
             setup,
             mesh,
-            links: Links::default(),
+            couplings: WallCouplings::default(),
         };
-        scheme.fit_mesh();
+        scheme.update_mesh();
         scheme.state.air = scheme.first_air();
         Ok(scheme)
     }
 
-    /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
+    /// Takes one step: remeshes, then solves with shorter and shorter lengths until one is acceptable, and completes it.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
-        let limit = self.state.drive.within(limit, self.state.travel);
+        let limit = self.state.drive.bounded_by_stage(limit, self.state.travel);
         if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
         {
             return Err(self.failure("the bodies have met and cannot go on"));
         }
         let begun = Instant::now();
-        self.fit_mesh();
+        self.update_mesh();
         self.clock.add(Stage::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
-        let mut guess = self.state.flow.clone();
-        for attempt in 0..ATTEMPTS {
-            let dt = self.length(limit).min(longest);
+        let mut start = self.state.flow.clone();
+        for attempt in 0..MAX_ATTEMPTS {
+            let dt = self.step_length(limit).min(longest);
             if !(dt > 0.0 && dt.is_finite()) {
                 return Err(self
                     .failure("nothing moves and no time is left: there is no time step to take"));
             }
             let solved = self
-                .solve(dt, limit, longest, &mut guess)
+                .solve(dt, limit, longest, &mut start)
                 .map_err(|why| self.failure(&why))?;
             let shorter = solved.dries_too_fast();
             dries = shorter.is_some();
@@ -162,56 +162,57 @@ impl Implicit {
                 continue;
             }
             let flow = &solved.flow;
-            let speed = fastest(flow, self.setup.settings.cfl).max(flow.speed.abs());
+            let speed = courant_speed(flow, self.setup.settings.cfl).max(flow.speed.abs());
             let crossed = speed * solved.dt;
-            if crossed <= EXCESS * self.setup.settings.cfl {
-                return Ok(self.follow(solved, limit));
+            if crossed <= CFL_EXCESS * self.setup.settings.cfl {
+                return Ok(self.complete_step(solved, limit));
             }
-            longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
-            // A pocket without air collapses by the same volume in a step of any length.
+            longest = CFL_TARGET * solved.dt * self.setup.settings.cfl / crossed;
+            // A pocket without air collapses by the same volume whatever the length, so the speed grows as the step shrinks.
             if attempt > 0 && self.setup.gas.is_some() {
                 longest = longest.min(0.5 * solved.dt);
             }
         }
-        Err(self.no_step(dries))
+        Err(self.no_acceptable_length(dries))
     }
 
-    /// Time in which the flow of the last step, as it grows, crosses a cell, s.
-    fn crossing(&self) -> f64 {
-        let fastest = self.state.fastest.max(self.state.flow.speed.abs());
-        1.0 / (self.state.growth * fastest)
+    /// Time in which the flow of the last step, times its expected growth, crosses a cell, s.
+    fn cell_crossing_time(&self) -> f64 {
+        let courant_speed = self.state.courant_speed.max(self.state.flow.speed.abs());
+        1.0 / (self.state.growth * courant_speed)
     }
 
-    /// Length of the next step by the flow of the last, s.
-    fn length(&self, limit: StepLimit) -> f64 {
+    /// Length of the next step by the flow of the last one, s.
+    fn step_length(&self, limit: StepLimit) -> f64 {
         let (state, liquid, units) = (&self.state, &self.setup.liquid, self.setup.units);
         let cfl = self.setup.settings.cfl;
-        let mut dt = (cfl * self.crossing()).min(limit.time_s);
-        // The viscosity of a liquid that cures is that of the middle of the step.
+        let mut dt = (cfl * self.cell_crossing_time()).min(limit.time_s);
+        // A step has the viscosity of its middle, so cure must not change it much.
         if let Some(cure) = &liquid.cure {
-            dt = dt.min(cure.steady(state.time, THICKENS));
+            dt = dt.min(cure.steady(state.time, LN_VISCOSITY_STEP));
         }
-        if let Some(wet) = &state.wet {
-            dt = dt.min(wet.steady());
+        if let Some(balance) = &state.water {
+            dt = dt.min(balance.steady_time());
         }
-        // From rest, weight sets the speed.
+        // The first step starts from rest, where weight sets the speed.
         if state.steps == 0 {
-            dt = dt.min((2.0 * cfl / self.setup.pull()).sqrt());
+            dt = dt.min((2.0 * cfl / self.setup.gravity_acceleration()).sqrt());
         }
-        // From rest, a clamp that lets go is no faster than it can; how fast it is with air behind it, no step before tells.
-        if let Some(speed) = state.drive.giving_way() {
+        // A clamp that starts to retreat is bounded by its full speed only: with air behind it no earlier step tells the speed.
+        if let Some(speed) = state.drive.retreat_speed() {
             dt = dt.min(cfl * units.cell_m / speed);
         }
-        // From rest, no meniscus outruns tension over viscosity; what holds one is known by the speed of the step before.
+        // The first step is bounded by the capillary speed, tension over viscosity. Later ones may grow by a factor only, since
+        // contact-line friction is evaluated at the velocity of the step before.
         if let Some(wetting) = liquid.wetting {
             dt = dt.min(match state.steps {
                 0 => units.cell_m * units.viscosity / wetting.tension,
-                _ => GROWTH * state.dt,
+                _ => MAX_LENGTH_RATIO * state.dt,
             });
         }
-        match self.left(limit) {
+        match self.travel_left(limit) {
             left if left > 0.0 => dt.min(left / state.flow.speed.max(f64::MIN_POSITIVE)),
-            // The clamp is where it was to go.
+            // The clamp has reached the end of its travel.
             _ => dt,
         }
     }

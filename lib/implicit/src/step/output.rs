@@ -1,4 +1,4 @@
-//! The liquid as points, as states and metrics take it: one in each voxel of a pore with liquid.
+//! The liquid as material points for states and metrics: one in each voxel of a pore with liquid.
 
 use physics::LiquidState;
 use rayon::prelude::*;
@@ -8,17 +8,17 @@ use crate::liquid::TRACE;
 use crate::system::{FlowField, Profile};
 
 impl Implicit {
-    /// The points of the liquid.
+    /// The material points of the liquid.
     pub(super) fn points(&self) -> LiquidState {
         let (mut state, shown) = self.filled_voxels();
-        // The walls of the gap of now: the last step's are of that in its middle.
-        let mut links = self.links.clone();
+        // Wall couplings at the current gap height; those at hand belong to the middle of the last step.
+        let mut couplings = self.couplings.clone();
         let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
             .collect();
-        links.measure(&self.setup.channels(&self.mesh), &fractions);
+        couplings.measure(&self.setup.channels(&self.mesh), &fractions);
         let field = FlowField {
-            links: &links,
+            couplings: &couplings,
             ..self.field(&self.state.flow)
         };
         let (rates, _) = field.pore_rates(self.setup.liquid.shear_rate);
@@ -32,7 +32,7 @@ impl Implicit {
             }
         }
         let profile = Profile::new(&self.setup.lattice, field);
-        let cell_m = self.setup.place.cell_m;
+        let cell_m = self.setup.origin.cell_m;
         let velocities = |&pore: &usize| {
             let velocities = profile.of_pore(pore);
             velocities.map(|velocity| velocity.map(|v| (v * cell_m) as f32))
@@ -41,9 +41,9 @@ impl Implicit {
         state
     }
 
-    /// Positions and volumes of the points alone, and their pores.
+    /// Points with positions and volumes only, and the pores that have points.
     pub(super) fn filled_voxels(&self) -> (LiquidState, Vec<usize>) {
-        let (mesh, place) = (&self.mesh, self.setup.place);
+        let (mesh, origin) = (&self.mesh, self.setup.origin);
         let mut state = LiquidState::default();
         let mut shown = Vec::new();
         for pore in 0..mesh.pores.len() {
@@ -54,25 +54,25 @@ impl Implicit {
             }
             shown.push(pore);
             let cell = mesh.cell(pore);
-            let at = mesh.place(cell);
+            let at = mesh.cell_indices(cell);
             let low = [
-                at[0] as f64 - mesh.beyond[0] as f64,
+                at[0] as f64 - mesh.ghost_layers[0] as f64,
                 mesh.rows().low(mesh.row(cell)),
-                at[2] as f64 - mesh.beyond[2] as f64,
+                at[2] as f64 - mesh.ghost_layers[2] as f64,
             ];
             for voxel in mesh.voxels(pore) {
                 state.position.push(std::array::from_fn(|a| {
                     let cells =
                         low[a] + mesh.edge(pore, a) * (voxel[a] as f64 + 0.5) / mesh.k as f64;
-                    (place.origin_m[a] + place.cell_m * cells) as f32
+                    (origin.origin_m[a] + origin.cell_m * cells) as f32
                 }));
-                state.volume.push((volume * place.cell_m.powi(3)) as f32);
+                state.volume.push((volume * origin.cell_m.powi(3)) as f32);
             }
         }
         (state, shown)
     }
 
-    /// Volume of the liquid of a pore over that at no pressure, Tait's J.
+    /// J of a pore by Tait's law: liquid volume over that at zero pressure.
     pub(super) fn compressed(&self, pore: usize) -> f64 {
         let pressure = self.state.flow.pressure[pore] * self.setup.units.viscosity;
         1.0 + self.setup.liquid.tait.volume_change(pressure)

@@ -1,4 +1,4 @@
-//! `physics::Scheme` of the implicit scheme: what it shows, saves and restores.
+//! `physics::Scheme` for the implicit scheme: diagnostics, output, checkpoints, objections.
 
 use physics::{
     Array, Diagnostics, Failure, LiquidState, PressRun, SET, Saved, Saving, Scheme, StageTime,
@@ -7,9 +7,9 @@ use physics::{
 
 use super::Implicit;
 use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::Kept;
+use crate::liquid::FaceMap;
 
-/// Name of the array that holds where the press programme is.
+/// Name of the checkpoint array of the press programme's state.
 const PROGRAMME: &str = "programme";
 
 impl Scheme for Implicit {
@@ -22,12 +22,12 @@ impl Scheme for Implicit {
         let (mut volume, mut energy) = (0.0, 0.0);
         let flow = self.field(&self.state.flow);
         for pore in 0..mesh.pores.len() {
-            let held = self.state.volumes[pore];
-            if held > 0.0 {
+            let amount = self.state.volumes[pore];
+            if amount > 0.0 {
                 let velocity = flow.mean(&self.setup.lattice, pore);
                 let speed = velocity.iter().map(|v| v * v).sum::<f64>();
-                volume += held * self.compressed(pore);
-                energy += 0.5 * held * speed;
+                volume += amount * self.compressed(pore);
+                energy += 0.5 * amount * speed;
             }
         }
         Diagnostics {
@@ -35,9 +35,9 @@ impl Scheme for Implicit {
                 * self.setup.liquid.density
                 * units.volume()
                 * units.cell_m.powi(2),
-            viscous_power: self.state.power * units.force() * units.cell_m,
+            viscous_power: self.state.dissipation * units.force() * units.cell_m,
             volume: volume * units.volume(),
-            max_speed: self.state.fastest * units.cell_m,
+            max_speed: self.state.courant_speed * units.cell_m,
             capped_fraction: 0.0,
             water: self.water_state(),
         }
@@ -62,10 +62,10 @@ impl Scheme for Implicit {
             state.travel,
             state.time,
             state.steps as f64,
-            state.fastest,
+            state.courant_speed,
             state.growth,
             state.lost,
-            state.power,
+            state.dissipation,
             state.unsettled as f64,
             state.flow.speed,
             state.flow.force,
@@ -106,10 +106,10 @@ impl Scheme for Implicit {
             travel,
             time,
             steps,
-            fastest,
+            courant_speed,
             growth,
             lost,
-            power,
+            dissipation,
             unsettled,
             speed,
             force,
@@ -122,9 +122,18 @@ impl Scheme for Implicit {
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
-        if [height, time, steps, fastest, growth, lost, unsettled, dt]
-            .iter()
-            .any(|&x| x < 0.0)
+        if [
+            height,
+            time,
+            steps,
+            courant_speed,
+            growth,
+            lost,
+            unsettled,
+            dt,
+        ]
+        .iter()
+        .any(|&x| x < 0.0)
         {
             return Err("a scalar of the checkpoint is negative where none can be".into());
         }
@@ -144,7 +153,7 @@ impl Scheme for Implicit {
         if volumes.iter().any(|&volume| volume < 0.0) {
             return Err("a volume of the checkpoint is negative".into());
         }
-        let wet = self.restored_water(saved, &volumes)?;
+        let balance = self.restored_water(saved, &volumes)?;
         let velocity = array("velocities", mesh.faces.len())?;
         let pressure = array("pressures", mesh.pores.len())?;
         let air = self.restored_air(saved, mesh.pores.len())?;
@@ -160,23 +169,23 @@ impl Scheme for Implicit {
         self.state.drive.set_state(drive);
         let state = &mut self.state;
         (state.travel, state.time, state.steps) = (travel, time, steps as u64);
-        (state.fastest, state.growth) = (fastest, growth);
-        (state.lost, state.power) = (lost, power);
+        (state.courant_speed, state.growth) = (courant_speed, growth);
+        (state.lost, state.dissipation) = (lost, dissipation);
         state.unsettled = unsettled as u64;
-        (state.volumes, state.air, state.wet) = (volumes, air, wet);
+        (state.volumes, state.air, state.water) = (volumes, air, balance);
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement;
         (self.mesh, self.height) = (mesh, height);
-        self.find_walls(&Kept::default());
+        self.rebuild_walls(&FaceMap::default());
         Ok(())
     }
 
     fn has_set(&self) -> bool {
-        // As thick by its loss of water, with cure, as one that has set.
+        // Set if loss of water and cure together reach the viscosity of a set liquid.
         let cure = self.setup.liquid.cure.as_ref();
         let cured = cure.map_or(1.0, |cure| cure.factor(self.state.time) / cure.factor(0.0));
-        (self.state.wet.as_ref()).is_some_and(|wet| wet.fluidity / cured <= 1.0 / SET)
+        (self.state.water.as_ref()).is_some_and(|balance| balance.fluidity / cured <= 1.0 / SET)
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
@@ -186,7 +195,10 @@ impl Scheme for Implicit {
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let mut counts = self.air_counts();
         if self.setup.limited {
-            counts.push(("steps above the pressure limit", self.state.drive.broken.0));
+            counts.push((
+                "steps above the pressure limit",
+                self.state.drive.violations.0,
+            ));
         }
         counts.push(("steps that did not settle", self.state.unsettled));
         counts
@@ -201,22 +213,22 @@ impl Scheme for Implicit {
     }
 
     fn objection(&self) -> Option<String> {
-        /// Part of the steps that may be so: a few settle late in sound runs.
+        /// Accepted share of such steps: a few converge late in sound runs.
         const MOST: f64 = 0.1;
         let steps = self.state.steps;
-        let (above, pressure) = self.state.drive.broken;
-        let mut said: Vec<String> = [
+        let (above, pressure) = self.state.drive.violations;
+        let mut objections: Vec<String> = [
             (
                 self.state.unsettled,
                 "the passes did not settle (viscosity, compression or torn liquid): a lower speed of the clamp or a smaller integrator.cfl may help",
             ),
             (
-                self.state.air.astray,
-                "the passes did not find the pressure of the air that is closed off",
+                self.state.air.unsettled,
+                "the iteration did not find the pressure of the enclosed air",
             ),
             (
                 above,
-                "liquid that is closed in pressed the clamp's body with more than its max_pressure: a smaller integrator.cfl or a lower speed of the clamp may help",
+                "enclosed liquid pressed the clamp's body with more than its max_pressure: a smaller integrator.cfl or a lower speed of the clamp may help",
             ),
         ]
         .into_iter()
@@ -224,14 +236,14 @@ impl Scheme for Implicit {
         .map(|(count, what)| format!("in {count} of {steps} steps {what}"))
         .collect();
         if pressure > 0.0 {
-            said.push(physics::broken(pressure));
+            objections.push(physics::broken(pressure));
         }
-        (!said.is_empty()).then(|| said.join("; "))
+        (!objections.is_empty()).then(|| objections.join("; "))
     }
 }
 
 impl Implicit {
-    /// The mesh of a checkpoint, of a gap of `height`.
+    /// The mesh of a checkpoint with a gap of `height` cells.
     fn saved_mesh(&self, saved: &Saved, height: f64) -> Result<Mesh, String> {
         let &[gap, start, end] = saved.u32s("rows")? else {
             return Err("the checkpoint's rows are not those of this scheme".into());

@@ -1,16 +1,16 @@
-//! The parts of a run that never change, made of the scene.
+//! The constant part of a run, from the scene.
 
 use std::ops::Range;
 
 use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
 use super::drive::ClampDrive;
-use super::fit::MARGIN;
+use super::remesh::MARGIN;
 use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
-use crate::liquid::{Place, deposit};
+use crate::liquid::{GridOrigin, deposit};
 use crate::settings::Settings;
-use crate::system::{Channels, STILL, Scales};
+use crate::system::{Channels, Coefficients, REST_DISTANCE};
 
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
@@ -33,36 +33,36 @@ impl Units {
     }
 }
 
-/// What never changes in a run.
+/// The constant part of a run.
 pub(super) struct Setup {
     pub(super) settings: Settings,
     pub(super) lattice: Lattice,
     pub(super) chords: Chords,
     pub(super) liquid: Liquid,
     pub(super) units: Units,
-    pub(super) place: Place,
+    pub(super) origin: GridOrigin,
     gravity: [f64; 3],
     /// Influence length of the walls, cells; infinite without friction.
     pub(super) influence_length: f64,
     pub(super) bottom: Option<usize>,
     pub(super) top: Option<usize>,
-    /// Points of the scene over the cells that they fill.
+    /// Number of the scene's points per cell of liquid.
     pub(super) points_per_cell: f64,
-    /// Area that pressures refer to, m2.
+    /// Reference area of pressures, the cross-section of the domain, m2.
     area: f64,
     /// Whether there is a clamp, and whether it has a pressure limit.
     pub(super) clamped: bool,
     pub(super) limited: bool,
-    /// Air that has pressures where it is closed off.
+    /// The gas law of pockets; `None` where all air is ambient.
     pub(super) gas: Option<Gas>,
-    /// Bodies that take water.
-    pub(super) take: Vec<bool>,
-    /// How each body moves.
+    /// Whether each body absorbs water.
+    pub(super) absorbs: Vec<bool>,
+    /// Motion of each body.
     pub(super) motions: Vec<Motion>,
 }
 
 impl Setup {
-    /// The setup of a scene, its first mesh, and the liquid in its pores.
+    /// The setup of a scene, its first mesh, and the liquid volume of each pore.
     ///
     /// # Errors
     /// A sentence on what the scheme cannot do with the scene.
@@ -79,15 +79,15 @@ impl Setup {
             cell_m,
             viscosity: scene.liquid.viscosity.at(speed / cell_m),
         };
-        let place = Place {
+        let origin = GridOrigin {
             cell_m,
             origin_m: [scene.grid.min_m[0], lattice.gap_low_m, scene.grid.min_m[2]],
             flat: scene.dimensions == Dimensions::Two,
         };
         let rows = lattice.rows();
-        let range = rows_of(&scene.points, rows, place);
+        let range = rows_of(&scene.points, rows, origin);
         let mesh = Mesh::whole(&lattice, rows, range);
-        let volumes = deposit(&mesh, &scene.points, place, |point| {
+        let volumes = deposit(&mesh, &scene.points, origin, |point| {
             point.volume / cell_m.powi(3)
         })?;
         let setup = Self {
@@ -96,7 +96,7 @@ impl Setup {
             lattice,
             liquid: scene.liquid.clone(),
             units,
-            place,
+            origin,
             gravity: scene.gravity,
             influence_length: scene.wall.influence_length() / cell_m,
             points_per_cell: scene.points.position.len() as f64 / volumes.iter().sum::<f64>(),
@@ -112,7 +112,7 @@ impl Setup {
                 .clamp
                 .is_some_and(|clamp| clamp.max_pressure.is_some()),
             motions: scene.bodies.iter().map(|body| body.motion).collect(),
-            take: (scene.bodies.iter())
+            absorbs: (scene.bodies.iter())
                 .map(|body| {
                     let water = scene.liquid.water.as_ref();
                     water.is_some_and(|water| water.enters(&body.name))
@@ -122,7 +122,7 @@ impl Setup {
         Ok((setup, mesh, volumes))
     }
 
-    /// What the friction of the walls of a mesh is found from.
+    /// The inputs of the wall couplings of a mesh.
     pub(super) fn channels<'a>(&'a self, mesh: &'a Mesh) -> Channels<'a> {
         Channels {
             lattice: &self.lattice,
@@ -132,8 +132,8 @@ impl Setup {
         }
     }
 
-    /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean
-    /// of the points, of which pores hold these `volumes`, in the pores on its two sides.
+    /// Initial velocity of each face relative to the grid, cells/s: the volume mean of the points in the two pores of the face.
+    /// `volumes` is the liquid in each pore, `speed` the closing speed, cells/s, at which the grid moves.
     ///
     /// # Errors
     /// As [`deposit`].
@@ -149,7 +149,7 @@ impl Setup {
         if points.velocity.iter().any(|v| *v != [0.0; 3]) {
             for axis in 0..3 {
                 let moment = |point: &Seed| point.volume * point.velocity[axis] / cell_m.powi(4);
-                moments.push(deposit(mesh, points, self.place, moment)?);
+                moments.push(deposit(mesh, points, self.origin, moment)?);
             }
         }
         let velocity = |(index, face): (usize, &Face)| {
@@ -162,7 +162,7 @@ impl Setup {
                 _ => 0.0,
             };
             match axis {
-                1 => own - mesh.frame(&self.lattice, index) * speed,
+                1 => own - mesh.grid_velocity(&self.lattice, index) * speed,
                 _ => own,
             }
         };
@@ -185,17 +185,17 @@ impl Setup {
     }
 
     /// Whether the viscosity depends on the flow.
-    pub(super) fn varies(&self) -> bool {
+    pub(super) fn is_non_newtonian(&self) -> bool {
         !matches!(self.liquid.viscosity, Viscosity::Newtonian(_))
     }
 
-    /// What multiplies the terms of a step of `dt` (s).
-    pub(super) fn scales(&self, dt: f64) -> Scales {
+    /// Coefficients of the equations of a step of `dt` (s).
+    pub(super) fn coefficients(&self, dt: f64) -> Coefficients {
         let (h, eta) = (self.units.cell_m, self.units.viscosity);
         let density = self.liquid.density;
-        Scales {
+        Coefficients {
             dt,
-            slow: STILL * self.settings.cfl / dt,
+            slow: REST_DISTANCE * self.settings.cfl / dt,
             inertia: density * h * h / (eta * dt),
             gravity: self.gravity.map(|g| density * h * g / eta),
             compressibility: eta / self.liquid.tait.bulk_modulus,
@@ -203,8 +203,8 @@ impl Setup {
         }
     }
 
-    /// Acceleration by weight, cells/s2.
-    pub(super) fn pull(&self) -> f64 {
+    /// Acceleration by gravity, cells/s2.
+    pub(super) fn gravity_acceleration(&self) -> f64 {
         self.gravity.iter().map(|g| g * g).sum::<f64>().sqrt() / self.units.cell_m
     }
 
@@ -219,12 +219,12 @@ impl Setup {
     }
 }
 
-/// Rows that hold points, those of the gap, and some around them.
-fn rows_of(points: &Points, rows: Rows, place: Place) -> Range<usize> {
+/// The range of rows that covers the points and the gap, and a margin around them.
+fn rows_of(points: &Points, rows: Rows, origin: GridOrigin) -> Range<usize> {
     let gap = [0.0, rows.height];
     let [low, high] = points.seeds().fold(gap, |[low, high], point| {
-        let y = (point.position[1] - place.origin_m[1]) / place.cell_m;
-        let half = place.half(point.volume)[1];
+        let y = (point.position[1] - origin.origin_m[1]) / origin.cell_m;
+        let half = origin.half(point.volume)[1];
         [low.min(y - half), high.max(y + half)]
     });
     let sides: Vec<f64> = (0..rows.len()).map(|row| rows.low(row)).collect();
@@ -234,7 +234,7 @@ fn rows_of(points: &Points, rows: Rows, place: Place) -> Range<usize> {
 }
 
 impl Lattice {
-    /// Rows at the start.
+    /// The rows of the grid at the start.
     pub(crate) fn rows(&self) -> Rows {
         let open = usize::from(self.boundary[1] == physics::Boundary::Open);
         let cells = |layers: usize| layers.div_ceil(self.k);

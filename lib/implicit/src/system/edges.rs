@@ -1,73 +1,77 @@
-//! Shear between a face and the faces beside it of the same axis, across the edges that they share.
+//! Shear between neighbouring faces of the same axis, at the cell edges that they share (docs/methods.md section 3.4).
 
 use rayon::prelude::*;
 
 use crate::geometry::{Lattice, Mesh, others};
-use crate::liquid::Kept;
+use crate::liquid::FaceMap;
 
-/// An edge that a face shares with the next face across.
+/// An edge that a face shares with its next face along a transverse axis `t`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     /// The next face.
     pub(crate) next: u32,
-    /// The faces across, between the low pores of both and between the high pores of both.
+    /// The faces normal to `t` at the edge: between the low pores of both faces, and between their high pores.
     pub(crate) across: [u32; 2],
-    /// Factor by re-entrant edges, in cells as high as wide.
+    /// Correction for re-entrant edges, in cubic cells.
     factor: f32,
-    /// Voxels along the edge that they share, negative where the next face lies on the low side.
+    /// Length of the edge, voxels; negative if the next face lies on the low side.
     shared: i8,
-    /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
+    /// Open height along `t` of the face and of the next one at the edge, voxels.
     open: [u8; 2],
-    /// The same of the faces across, along the axis of the face.
-    aside: [u8; 2],
+    /// Open height of the two faces `across` along the axis of the face, voxels.
+    across_open: [u8; 2],
     t: u8,
 }
 
 impl Edge {
-    /// Rate of shear across it by the velocities `u` around it.
+    /// Shear rate at the edge by the face velocities `u`.
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
         let [low, high] = self.across.map(|face| u[face as usize]);
-        let across = (high - low) / apart(mesh, self.aside, [f.low, f.high], f.axis);
+        let across =
+            (high - low) / distance_between(mesh, self.across_open, [f.low, f.high], f.axis);
         (self.slope(mesh, face, u) + across).abs()
     }
 
-    /// Slope across it of the velocity of the face by the velocities `u`.
+    /// Gradient along `t` of the velocity of the face at the edge, by the face velocities `u`.
     pub(super) fn slope(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let lows = [face, self.next as usize].map(|face| mesh.faces[face].low);
-        let along = (u[self.next as usize] - u[face]) / apart(mesh, self.open, lows, self.t);
+        let along =
+            (u[self.next as usize] - u[face]) / distance_between(mesh, self.open, lows, self.t);
         along * f64::from(self.shared.signum())
     }
 
-    /// Whether the next face lies beside it along `t` on the high (`up`) or low side.
+    /// Whether the edge is on the high (`up`) or low side of the face along `t`.
     pub(super) fn is_at(&self, t: usize, up: bool) -> bool {
         usize::from(self.t) == t && (self.shared > 0) == up
     }
 
-    /// Columns of voxels that the faces share it by.
+    /// Length of the edge, voxels.
     pub(super) fn columns(&self) -> f64 {
         f64::from(self.shared.unsigned_abs())
     }
 
-    /// The axis that it lies along.
+    /// The axis along which the edge runs.
     pub(crate) fn axis(&self, mesh: &Mesh, face: usize) -> usize {
         3 - usize::from(mesh.faces[face].axis) - usize::from(self.t)
     }
 
-    /// Area over distance between a face and the next one, cells, and the length of the edge, negative where the next face
-    /// lies on the low side.
-    pub(crate) fn measured(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
+    /// Sheared area over the distance between the two faces, cells, and the length of the edge, cells, negative if the next
+    /// face lies on the low side.
+    pub(crate) fn geometry(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
         let f = mesh.faces[face];
         let (axis, along) = (usize::from(f.axis), self.axis(mesh, face));
         let edge = |pore: u32, a: usize| mesh.edge(pore as usize, a);
         let next = mesh.faces[self.next as usize].low;
-        let distance = apart(mesh, self.open, [f.low, next], self.t);
+        let distance = distance_between(mesh, self.open, [f.low, next], self.t);
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
         let length = edge(f.low, along);
         let lowest = match along {
             _ if self.factor == 1.0 => 1.0,
             1 => 1.0,
-            _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
+            _ => mesh
+                .lowest_row(f.low as usize)
+                .min(mesh.lowest_row(next as usize)),
         };
         let factor = match lowest {
             1.0 => f64::from(self.factor),
@@ -79,14 +83,14 @@ impl Edge {
     }
 }
 
-/// Distance along an axis between the middles of so many open voxels in two pores that meet, cells.
-fn apart(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
+/// Distance along an axis between the middles of two adjacent open heights (`open`, in voxels) in two pores, cells.
+fn distance_between(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
     let [low, high] =
         [0, 1].map(|i| f64::from(open[i]) * mesh.edge(pores[i] as usize, usize::from(axis)));
     0.5 * (low + high) / mesh.k as f64
 }
 
-/// The edges of all faces of a mesh.
+/// The edges of all faces of a mesh, grouped by face.
 #[derive(Default)]
 pub(crate) struct Edges {
     start: Vec<u32>,
@@ -94,34 +98,34 @@ pub(crate) struct Edges {
 }
 
 impl Edges {
-    /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &Kept, old: &Self) -> Self {
-        let mut now = vec![None; old.start.len()];
-        for (face, old_face) in kept.0.iter().enumerate() {
+    /// The edges of `mesh`; faces that are unchanged by `face_map` keep their `old` ones.
+    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, face_map: &FaceMap, old: &Self) -> Self {
+        let mut new_face = vec![None; old.start.len()];
+        for (face, old_face) in face_map.0.iter().enumerate() {
             if let Some((old_face, _)) = old_face {
-                now[*old_face as usize] = Some(face as u32);
+                new_face[*old_face as usize] = Some(face as u32);
             }
         }
         let renumbered = |edge: &Edge| {
-            let [low, high] = edge.across.map(|face| now[face as usize]);
+            let [low, high] = edge.across.map(|face| new_face[face as usize]);
             Some(Edge {
-                next: now[edge.next as usize]?,
+                next: new_face[edge.next as usize]?,
                 across: [low?, high?],
                 ..*edge
             })
         };
         let inner = mesh.inner_faces();
-        let clear = mesh.clear_cells();
+        let clear = mesh.wall_free_cells();
         let add = |face: usize, edges: &mut Vec<Edge>| {
             let first = edges.len();
-            let known = kept.whole(face).is_some_and(|face| {
+            let known = face_map.unchanged(face).is_some_and(|face| {
                 let mut old = old.of(face).iter().map(renumbered);
                 old.all(|edge| edge.map(|edge| edges.push(edge)).is_some())
             });
             if !known {
                 edges.truncate(first);
                 if inner[face] {
-                    add_edges(edges, mesh, lattice, face, mesh.is_clear(face, &clear));
+                    add_edges(edges, mesh, lattice, face, mesh.is_wall_free(face, &clear));
                 }
             }
             (edges.len() - first) as u32
@@ -155,8 +159,8 @@ impl Edges {
         self.start[face] as usize
     }
 
-    /// Square of the rate of shear at each edge by the velocities `u`: its own, and what else of the rates there is in the
-    /// pores around it, by the parts of their squares: stretching, and shear around each axis.
+    /// Square of the shear rate at each edge by the face velocities `u`: that of its own shear, and the mean of all other
+    /// parts in the four pores around it. `parts` are the squares in each pore: stretching, and shear about x, y, z.
     pub(crate) fn rates(&self, mesh: &Mesh, u: &[f64], parts: &[[f64; 4]]) -> Vec<f64> {
         let rates = |face: usize| {
             self.of(face).iter().map(move |edge| {
@@ -182,12 +186,12 @@ impl Edges {
     }
 }
 
-/// Adds the edges of a face, in which voxels of the same faces are joined where re-entrant edges are alike.
+/// Adds the edges of a face. Voxels of an edge between the same faces are merged if they have the same re-entrant correction.
 fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize, clear: bool) {
     let axis = usize::from(mesh.faces[face].axis);
     let key = |edge: &Edge| {
         let factor = edge.factor.to_bits();
-        (edge.next, edge.across, edge.open, edge.aside, factor)
+        (edge.next, edge.across, edge.open, edge.across_open, factor)
     };
     for t in others(axis)
         .into_iter()
@@ -215,13 +219,13 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
     }
 }
 
-/// The edge at one side of a face along `t` where all cells around are open: one pore each, one face between two.
+/// The edge at one side of a face along `t` if all cells around are wholly open: one pore each, one face between two.
 fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
     let f = mesh.faces[face];
-    let cells = f.ends().map(|pore| mesh.cell(pore));
+    let cells = f.pores().map(|pore| mesh.cell(pore));
     let beside = [
-        mesh.neighbour(cells[0], t, up)?,
-        mesh.neighbour(cells[1], t, up)?,
+        mesh.next_cell(cells[0], t, up)?,
+        mesh.next_cell(cells[1], t, up)?,
     ];
     let first = |cell: usize, axis: usize| mesh.faces_of(cell, axis).start as u32;
     let k = mesh.k as u8;
@@ -231,12 +235,12 @@ fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
         factor: 1.0,
         shared: if up { k as i8 } else { -(k as i8) },
         open: [k; 2],
-        aside: [k; 2],
+        across_open: [k; 2],
         t: t as u8,
     })
 }
 
-/// The edge at one side of column `r` of a face along `t`.
+/// The edge at one side along `t` of voxel column `r` of a face.
 fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];
@@ -258,31 +262,32 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     if own == 0 {
         return None;
     }
-    let ends = f.ends();
-    let cells = ends.map(|pore| mesh.cell(pore));
+    let pores = f.pores();
+    let cells = pores.map(|pore| mesh.cell(pore));
     let beside = [
-        mesh.neighbour(cells[0], t, up)?,
-        mesh.neighbour(cells[1], t, up)?,
+        mesh.next_cell(cells[0], t, up)?,
+        mesh.next_cell(cells[1], t, up)?,
     ];
     let voxel = |half: usize| {
         let mut at = [0; 3];
         (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, far, r);
         at
     };
-    let low = mesh.pore_with(beside[0], voxel(0))?;
-    let high = mesh.pore_with(beside[1], voxel(1))?;
+    let low = mesh.pore_at(beside[0], voxel(0))?;
+    let high = mesh.pore_at(beside[1], voxel(1))?;
     let next = mesh.face_between(low, high, axis)?;
     let joined = |near: usize, far: usize| match up {
         true => mesh.face_between(near, far, t),
         false => mesh.face_between(far, near, t),
     };
-    let (beside_low, beside_high) = (joined(ends[0], low)?, joined(ends[1], high)?);
+    let (beside_low, beside_high) = (joined(pores[0], low)?, joined(pores[1], high)?);
     let own_voxel = |half: usize| {
         let mut at = voxel(half);
         at[t] = near;
         at
     };
-    let reentrant = |half: usize| mesh.reentrant((cells[half], own_voxel(half)), [t, across], up);
+    let reentrant =
+        |half: usize| mesh.ln_reentrant_factor((cells[half], own_voxel(half)), [t, across], up);
     let factor = (0.5 * (0..2).map(reentrant).sum::<f64>()).exp();
     Some(Edge {
         next: next as u32,
@@ -290,7 +295,7 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
         factor: factor as f32,
         shared: if up { 1 } else { -1 },
         open: [own, height(next, t, far)],
-        aside: [
+        across_open: [
             height(beside_low, axis, k - 1),
             height(beside_high, axis, 0),
         ],

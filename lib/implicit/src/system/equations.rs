@@ -1,4 +1,4 @@
-//! The equations of a step as the linear solver takes them, and the flow of its solution.
+//! The saddle-point system of a step for the linear solver, and the flow from its solution.
 
 use rayon::prelude::*;
 use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
@@ -6,39 +6,41 @@ use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
 use super::assembly::Problem;
 use super::solution::{Drive, Flow};
 
-/// The equations of a step, for the linear solver.
+/// The saddle-point system of a step.
 pub(super) struct Equations {
     a: VelocityBlock,
     g: Csr<f64>,
-    /// Compressibility of each pore and pocket, and twice its viscosity.
+    /// Diagonal of C, the compressibility of each pore and pocket, and twice the viscosity of each.
     c: Vec<f64>,
     two_eta: Vec<f64>,
-    /// `D_B` of each face.
+    /// `D_B` of each face (docs/methods.md section 3.6).
     friction: Vec<f64>,
-    /// Momenta at the closing speed, per closing speed, of them those that stand, and those of thick liquid that goes along.
+    /// Momentum right-hand sides: all of them, those per closing speed, the static ones, and those that only make liquid
+    /// follow its walls.
     known: Vec<f64>,
     pub(super) closing: Vec<f64>,
     standing: Vec<f64>,
     clinging: Vec<f64>,
-    /// Volumes that pores lose per closing speed, and at the speed that is given.
+    /// Volumes that pores and pockets lose per closing speed, and those at a prescribed speed (zero if the speed is unknown).
     pub(super) source: Vec<f64>,
     volume_source: Vec<f64>,
-    carried: Vec<f64>,
-    /// Known force on the body that closes the gap.
-    pub(super) carried_force: f64,
+    excess_rate: Vec<f64>,
+    /// Known force on the moving body.
+    pub(super) known_body_force: f64,
 }
 
 impl Equations {
-    /// Those of a problem at a closing `speed`; `carried` is the volume, over the time step, that each pore with a pressure holds
-    /// more than its volume at no pressure.
+    /// The system of a problem with the moving body driven by `drive`. `excess_rate` is the excess of the liquid in each
+    /// pore with a pressure over the pore's volume, per time.
     pub(super) fn new(
         problem: &Problem,
-        carried: &[f64],
+        excess_rate: &[f64],
         drive: Drive,
     ) -> Result<Self, SolveError> {
-        let (unknowns, scales) = (problem.unknowns, &problem.scales);
+        let (unknowns, coefficients) = (problem.unknowns, &problem.coefficients);
         let (a, g) = (problem.velocity_block()?, problem.outflow()?);
-        let [known, closing, mut standing, carried_along, own, clinging] = problem.momenta();
+        let [known, closing, mut standing, force_on_body, own, clinging] =
+            problem.right_hand_sides();
         let speed = drive.speed();
         let mut clinging: Vec<f64> = (own.iter().zip(&clinging))
             .map(|(known, closing)| known + speed * closing)
@@ -60,7 +62,7 @@ impl Equations {
             g,
             c: of_pores(&|pore| {
                 let end = problem.mesh.volume_at(pore, problem.end_height);
-                end * scales.compressibility / scales.dt
+                end * coefficients.compressibility / coefficients.dt
             }),
             two_eta: of_pores(&|pore| 2.0 * problem.viscosities.pores[pore]),
             friction: (unknowns.faces.par_iter())
@@ -70,10 +72,10 @@ impl Equations {
             closing,
             standing,
             clinging,
-            source: of_pores(&|pore| problem.closing(pore)),
+            source: of_pores(&|pore| problem.closing_loss(pore)),
             volume_source: Vec::new(),
-            carried: carried.to_vec(),
-            carried_force: carried_along.iter().sum(),
+            excess_rate: excess_rate.to_vec(),
+            known_body_force: force_on_body.iter().sum(),
         };
         equations.add_pockets(problem);
         equations.volume_source = vec![0.0; equations.source.len()];
@@ -89,22 +91,23 @@ impl Equations {
         Ok(equations)
     }
 
-    /// Adds pockets of air. The unknown of one is its pressure less that of its tangent, by which fronts are pushed: what softens
-    /// a pocket much would outweigh all else.
+    /// Adds pockets of air. The unknown of a pocket is its pressure less that of its tangent, which the fronts already
+    /// apply: with the full pressure as the unknown, the terms of a soft pocket would outweigh all others.
     fn add_pockets(&mut self, problem: &Problem) {
         let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
-        let dt = problem.scales.dt;
+        let dt = problem.coefficients.dt;
         for pocket in problem.pockets {
             let (pores, tangent) = (pocket.pores.iter(), pocket.tangent);
-            let closing = pores.map(|&pore| problem.closing(pore as usize)).sum();
+            let closing = pores.map(|&pore| problem.closing_loss(pore as usize)).sum();
             self.source.push(closing);
-            self.carried_force += closing * tangent.pressure;
-            self.c.push(tangent.yielding / dt);
-            self.carried.push((tangent.volume - pocket.volume) / dt);
+            self.known_body_force += closing * tangent.pressure;
+            self.c.push(tangent.compliance / dt);
+            self.excess_rate.push((tangent.volume - pocket.volume) / dt);
             self.two_eta.push(thickest);
         }
     }
 
+    /// The system as the linear solver takes it.
     pub(super) fn system(&self, problem: &Problem) -> SaddleSystem<'_> {
         SaddleSystem {
             a: &self.a,
@@ -116,13 +119,13 @@ impl Equations {
             b: &self.known,
             standing: &self.standing,
             clinging: &self.clinging,
-            slow: problem.scales.slow,
+            slow: problem.coefficients.slow,
             volume_source: &self.volume_source,
-            carried: &self.carried,
+            carried: &self.excess_rate,
         }
     }
 
-    /// The flow of velocities and pressures at a closing speed.
+    /// The flow with the solution u, p at a closing speed.
     pub(super) fn flow(&self, problem: &Problem, [u, p]: [&[f64]; 2], speed: f64) -> Flow {
         let unknowns = problem.unknowns;
         let mut flow = Flow {
@@ -133,7 +136,7 @@ impl Equations {
         };
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let (drag, moved) = (problem.resistance(), dot(&self.closing, u));
-        flow.force = dot(&self.source, p) - moved + drag * speed + self.carried_force;
+        flow.force = dot(&self.source, p) - moved + drag * speed + self.known_body_force;
         let mut au = vec![0.0; u.len()];
         self.a.multiply(u, &mut au);
         flow.dissipation = dot(u, &au) - 2.0 * speed * moved
@@ -154,17 +157,20 @@ impl Equations {
     }
 }
 
-/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
+/// `D_B` of the preconditioner: inertia, and Darcy friction of the channel around a face (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
-    let link = problem.links.of(face);
-    let slip = problem.scales.influence_length;
+    let coupling = problem.couplings.of(face);
+    let slip = problem.coefficients.influence_length;
     let narrow = match slip.is_finite() {
-        true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
+        true => {
+            12.0 * coupling.inverse_width_squared
+                / (1.0 + 6.0 * slip * coupling.inverse_width_squared.sqrt())
+        }
         false => 0.0,
     };
     let [low, high] = problem
-        .ends(face)
+        .face_pores(face)
         .map(|pore| problem.viscosities.pores[pore]);
-    // A diagonal without zeros.
-    (problem.masses[face] * (problem.scales.inertia + low.max(high) * narrow)).max(1e-6)
+    // Keeps the diagonal positive.
+    (problem.masses[face] * (problem.coefficients.inertia + low.max(high) * narrow)).max(1e-6)
 }

@@ -1,4 +1,4 @@
-//! Liquid in the halves of faces: what moves with each face, and what resists.
+//! Liquid in the halves of faces: the mass and the viscous stiffness of each face (docs/methods.md section 3.3).
 
 use rayon::prelude::*;
 
@@ -6,13 +6,13 @@ use super::unknowns::FULL;
 use super::viscosity::Viscosities;
 use crate::geometry::{Face, Mesh};
 
-/// Liquid in the halves of each face, over their volumes. A pore that a full one beside it fills has all of its liquid in
-/// that half: what the pressure of the full pore moves reaches to the surface.
+/// Liquid fraction of the two halves of each face. A partly filled pore with a full one on one side only has all its liquid in
+/// the half towards it: the pressure of the full pore drives the liquid up to the surface.
 pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
     let full = |pore: usize| fractions[pore] >= FULL;
     (mesh.faces.par_iter())
         .map(|face| {
-            let ends = face.ends();
+            let ends = face.pores();
             [0, 1].map(|half| {
                 let (pore, other) = (ends[half], ends[1 - half]);
                 let fraction = fractions[pore];
@@ -21,7 +21,7 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
                 }
                 let up = half == 1;
                 let mut opposite = mesh.faces_at(pore, usize::from(face.axis), up);
-                let behind = opposite.any(|face| full(mesh.faces[face].ends()[half]));
+                let behind = opposite.any(|face| full(mesh.faces[face].pores()[half]));
                 match (full(other), behind) {
                     (true, false) => 2.0 * fraction,
                     (false, true) => 0.0,
@@ -32,14 +32,14 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Liquid that moves with each face: its share of the half pores on both sides.
+/// Liquid volume that moves with each face: its area share of the half pores on both sides.
 pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
     let mass = |(index, (face, parts)): (usize, (&Face, &[f64; 2]))| {
         let axis = usize::from(face.axis);
         let half = |((pore, up), part): ((usize, bool), &f64)| {
-            0.5 * part * mesh.volume(pore) * mesh.share(index, pore, axis, up)
+            0.5 * part * mesh.volume(pore) * mesh.area_share(index, pore, axis, up)
         };
-        (face.ends().into_iter().zip([true, false]))
+        (face.pores().into_iter().zip([true, false]))
             .zip(parts)
             .map(half)
             .sum::<f64>()
@@ -48,12 +48,12 @@ pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
     faces.map(mass).collect()
 }
 
-/// Liquid of the halves of each face, times the viscosity of their pores where that of edges is none of its own.
+/// Sum over the halves of each face of liquid fraction times viscosity; without the viscosity where edges have their own.
 pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosities: &Viscosities) -> Vec<f64> {
     let own = viscosities.edges.is_empty();
     let viscosity = |pore: usize| if own { viscosities.pores[pore] } else { 1.0 };
     let of = |(face, parts): (&Face, &[f64; 2])| {
-        let [low, high] = face.ends().map(viscosity);
+        let [low, high] = face.pores().map(viscosity);
         parts[0] * low + parts[1] * high
     };
     mesh.faces.par_iter().zip(halves).map(of).collect()

@@ -1,28 +1,28 @@
-//! Unknowns and equations of one step.
+//! Unknowns, equations and solution of a step (docs/methods.md sections 3.3 to 3.8 and 3.12).
 
 mod assembly;
+mod coupling;
+mod couplings;
 mod edges;
 mod equations;
 mod fronts;
 mod halves;
-mod link;
-mod links;
-mod passes;
 mod profile;
 mod solution;
 mod stretching;
 mod thinning;
 mod unknowns;
 mod viscosity;
+mod viscosity_iteration;
 
-pub(crate) use assembly::{Problem, Scales};
+pub(crate) use assembly::{Coefficients, Problem};
+pub(crate) use couplings::{Channels, WallCouplings};
 pub(crate) use edges::Edges;
 pub(crate) use equations::resistance;
-pub(crate) use fronts::{Fronts, STILL, Wetting};
+pub(crate) use fronts::{Fronts, REST_DISTANCE, Wetting};
 pub(crate) use halves::{halves, masses, stiffnesses};
-pub(crate) use links::{Channels, Links};
-pub(crate) use passes::{PASSES, Search};
 pub(crate) use profile::Profile;
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};
 pub(crate) use viscosity::{FlowField, Viscosities};
+pub(crate) use viscosity_iteration::{MAX_PASSES, ViscosityIteration};

@@ -1,20 +1,20 @@
-//! Velocity at a place in a pore, from those of its faces.
+//! Velocity within pores, interpolated from face velocities (docs/methods.md section 3.15).
 
 use rayon::prelude::*;
 
 use super::FlowField;
 use crate::geometry::{Lattice, others};
 
-/// A flow, to find velocities within pores. Along its own axis a velocity is linear from face to face. Across it is a parabola
-/// whose mean over the face is the velocity of the face and whose slopes at the two sides are the rates of shear there.
+/// Velocity profiles of a flow within pores. A component is linear along its own axis from face to face. Across it is a parabola
+/// whose mean over the face is the velocity of the face and whose slopes at its two sides are the shear rates there.
 pub(crate) struct Profile<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) flow: FlowField<'a>,
-    /// Slopes of the velocity of each face at its low and its high side along the two axes across it, the lower first, 1/s.
+    /// Slopes of the velocity of each face at its low and its high side along its two tangential axes, the lower first, 1/s.
     slopes: Vec<[[f64; 2]; 2]>,
 }
 
-/// Velocities of the columns of voxels at a side of a pore, by their place across: the first axis runs fastest.
+/// Velocities of the voxel columns at a side of a pore, the lower tangential axis fastest; `None` where the liquid ends.
 type Columns = [Option<f64>; 4];
 
 impl<'a> Profile<'a> {
@@ -27,7 +27,7 @@ impl<'a> Profile<'a> {
         }
     }
 
-    /// Velocities at the middles of the voxels of a pore, in their order, cells/s.
+    /// Velocities at the centres of the voxels of a pore, in their order, cells/s.
     pub(crate) fn of_pore(&self, pore: usize) -> impl Iterator<Item = [f64; 3]> {
         let sides: [[Columns; 2]; 3] = std::array::from_fn(|axis| {
             [false, true].map(|up| match self.lattice.flat && axis == 2 {
@@ -37,8 +37,9 @@ impl<'a> Profile<'a> {
         });
         let at = move |voxel: [usize; 3]| {
             std::array::from_fn(|axis| {
-                let [(first, low), (last, high)] = [false, true]
-                    .map(|up| self.end(pore, voxel, &sides[axis][usize::from(up)], axis, up));
+                let [(first, low), (last, high)] = [false, true].map(|up| {
+                    self.column_end(pore, voxel, &sides[axis][usize::from(up)], axis, up)
+                });
                 let part = (voxel[axis] as f64 + 0.5 - first) / (last - first);
                 let between = |a: f64, b: f64| a + part * (b - a);
                 let own = match (low, high) {
@@ -46,15 +47,15 @@ impl<'a> Profile<'a> {
                     (one, other) => one.or(other).unwrap_or(0.0),
                 };
                 let [low, high] =
-                    [false, true].map(|up| self.flow.frame(self.lattice, pore, axis, up));
+                    [false, true].map(|up| self.flow.grid_velocity(self.lattice, pore, axis, up));
                 own + between(low, high)
             })
         };
         self.flow.mesh.voxels(pore).map(at)
     }
 
-    /// Velocities against the grid of the columns of voxels at one side of a pore: 0 at walls, none where the liquid ends.
-    /// Parabola u + a y + c (y^2 - h^2/12) over the height h that a face is open by, with the slopes a - c h and a + c h at its sides.
+    /// Velocities relative to the grid of the voxel columns at one side of a pore: 0 at walls. Over the open height h of a face
+    /// this is u + a y + c (y^2 - h^2/12), with the slopes a - c h and a + c h at its sides.
     fn columns(&self, pore: usize, axis: usize, up: bool) -> Columns {
         let (mesh, across) = (self.flow.mesh, others(axis));
         let k = mesh.k;
@@ -88,9 +89,9 @@ impl<'a> Profile<'a> {
         side
     }
 
-    /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there,
-    /// of those of the side; none where the liquid ends.
-    fn end(
+    /// End of a voxel's column along an axis: its position, voxels from the low side of the cell, and the velocity relative
+    /// to the grid there, 0 at a wall within the cell, else that of the `side` of the pore.
+    fn column_end(
         &self,
         pore: usize,
         voxel: [usize; 3],
@@ -104,7 +105,7 @@ impl<'a> Profile<'a> {
         while last[axis] != end {
             let mut next = last;
             next[axis] = if up { last[axis] + 1 } else { last[axis] - 1 };
-            if !mesh.holds(pore, next) {
+            if !mesh.has_voxel(pore, next) {
                 return ((last[axis] + usize::from(up)) as f64, Some(0.0));
             }
             last = next;
@@ -116,7 +117,7 @@ impl<'a> Profile<'a> {
 }
 
 impl FlowField<'_> {
-    /// Velocity of a pore by the means of its faces on the two sides along each axis, cells/s.
+    /// Mean velocity of a pore: along each axis the mean of its two sides, by area, cells/s.
     pub(crate) fn mean(&self, lattice: &Lattice, pore: usize) -> [f64; 3] {
         let mesh = self.mesh;
         std::array::from_fn(|axis| {
@@ -127,36 +128,36 @@ impl FlowField<'_> {
                     (flux + own * self.velocity[face], area + own)
                 });
                 let own = if area > 0.0 { flux / area } else { 0.0 };
-                self.frame(lattice, pore, axis, up) + own
+                self.grid_velocity(lattice, pore, axis, up) + own
             };
             0.5 * (side(false) + side(true))
         })
     }
 
-    /// Velocity of the grid along an axis at one side of a pore's cell.
-    fn frame(&self, lattice: &Lattice, pore: usize, axis: usize, up: bool) -> f64 {
+    /// Velocity of the grid along an axis at one side of a pore's cell, cells/s.
+    fn grid_velocity(&self, lattice: &Lattice, pore: usize, axis: usize, up: bool) -> f64 {
         if axis != 1 {
             return 0.0;
         }
         let row = self.mesh.row_of(pore);
-        let share = self.mesh.rows().share(row + usize::from(up));
-        lattice.speed_at(share) * self.speed
+        let share = self.mesh.rows().closing_share(row + usize::from(up));
+        lattice.grid_speed(share) * self.speed
     }
 
-    /// Whether a face had a velocity in the step: others have none at all.
+    /// Whether the velocity of a face was an unknown of the step: those of others are exactly zero.
     fn moves(&self, face: usize) -> bool {
         self.velocity[face] != 0.0
     }
 
-    /// Slopes of the velocity of a face at its low and its high side along the two axes across it: where it borders on other
-    /// faces by their velocities, at walls the rate of shear there, and none where the liquid ends.
+    /// Slopes of the velocity of a face at its low and its high side along its two tangential axes. Where a side has no next face
+    /// this is the wall shear rate, and zero where the liquid ends.
     fn slopes(&self, face: usize) -> [[f64; 2]; 2] {
         if !self.moves(face) {
             return [[0.0; 2]; 2];
         }
         let (mesh, f) = (self.mesh, self.mesh.faces[face]);
-        let at_walls = self.pull_of_walls(face);
-        // Columns of voxels that the face is open to, across each axis.
+        let at_walls = self.wall_shear_rate(face);
+        // Number of open voxel columns of the face, transverse to each of the two axes.
         let columns = [
             (f.open | f.open >> 1) & 0b0101,
             (f.open | f.open >> 2) & 0b0011,
@@ -173,7 +174,7 @@ impl FlowField<'_> {
                         rate += edge.columns() * edge.slope(mesh, face, self.velocity);
                     }
                 }
-                let inside = mesh.neighbour(mesh.cell(f.low as usize), across[i], up);
+                let inside = mesh.next_cell(mesh.cell(f.low as usize), across[i], up);
                 let rate = match (inside, up) {
                     (None, _) => rate,
                     (_, true) => rate + walls * at_walls,
@@ -185,16 +186,16 @@ impl FlowField<'_> {
         })
     }
 
-    /// Rate of shear at the walls of a face by which they pull it on, 1/s.
-    fn pull_of_walls(&self, face: usize) -> f64 {
-        let link = self.links.of(face);
-        if link.area == 0.0 {
+    /// Mean shear rate at the walls of a face, 1/s, positive if the walls accelerate it.
+    fn wall_shear_rate(&self, face: usize) -> f64 {
+        let coupling = self.couplings.of(face);
+        if coupling.area == 0.0 {
             return 0.0;
         }
-        let pull = |half: usize| {
-            let [own, closing] = link.sliding[half];
-            own + closing * self.speed - link.friction[half] * self.velocity[face]
+        let drag = |half: usize| {
+            let [own, closing] = coupling.sliding[half];
+            own + closing * self.speed - coupling.friction[half] * self.velocity[face]
         };
-        (pull(0) + pull(1)) / link.area
+        (drag(0) + drag(1)) / coupling.area
     }
 }

@@ -1,4 +1,4 @@
-//! Solution of the equations of a step, and the forces on the bodies.
+//! Solution of the equations of a step, and forces on the bodies.
 
 use std::time::Instant;
 
@@ -10,34 +10,42 @@ use super::stretching::stretching;
 use crate::clock::{Clock, Stage};
 use crate::geometry::{MIRROR, OPEN};
 
-/// How the body that closes the gap is driven.
+/// How the moving body is driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Drive {
-    /// At this speed, cells/s.
+    /// At a prescribed speed, cells/s.
     Speed(f64),
-    /// By a force over the unit of viscosity, of which errors are measured by `scale`, at a speed near `guess`.
-    Force { force: f64, scale: f64, guess: f64 },
+    /// By a force over the unit of viscosity, at an unknown speed that is estimated as `start_speed`; `scale` is that of
+    /// errors in the force.
+    Force {
+        force: f64,
+        scale: f64,
+        start_speed: f64,
+    },
 }
 
 impl Drive {
-    /// The closing speed, or the guess at it.
+    /// The closing speed, or its estimate.
     pub(super) fn speed(self) -> f64 {
         match self {
-            Self::Speed(speed) | Self::Force { guess: speed, .. } => speed,
+            Self::Speed(speed)
+            | Self::Force {
+                start_speed: speed, ..
+            } => speed,
         }
     }
 }
 
-/// What flows in a step.
+/// The flow in a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flow {
-    /// Velocity of each face against the grid, cells/s.
+    /// Velocity of each face relative to the grid, cells/s.
     pub(crate) velocity: Vec<f64>,
     /// Pressure of each pore over the unit of viscosity.
     pub(crate) pressure: Vec<f64>,
     /// Closing speed, cells/s.
     pub(crate) speed: f64,
-    /// Force on the body that closes the gap, against it.
+    /// Force of the liquid on the moving body, positive against its motion.
     pub(crate) force: f64,
     /// Viscous dissipation, over the unit of viscosity.
     pub(crate) dissipation: f64,
@@ -45,8 +53,8 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// The same flow at another closing speed, if there is one.
-    pub(crate) fn speed_up(&mut self, speed: f64) {
+    /// Coefficients the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
+    pub(crate) fn scale_to_speed(&mut self, speed: f64) {
         let factor = speed / self.speed;
         if !(factor > 0.0 && factor.is_finite()) || factor == 1.0 {
             return;
@@ -57,25 +65,25 @@ impl Flow {
     }
 }
 
-/// Solves a problem. `carried` is the volume, over the time step, that each pore with a pressure holds more than its
-/// volume at no pressure, and `guess` a flow to start from.
+/// Solves a problem from the flow `start`. `excess_rate` is the excess of the liquid in each pore with a pressure over the
+/// pore's volume, per time.
 pub(crate) fn solve(
     problem: &Problem,
-    carried: &[f64],
+    excess_rate: &[f64],
     drive: Drive,
-    guess: &Flow,
+    start: &Flow,
     solver: &SaddleSolver,
     clock: &mut Clock,
 ) -> Result<Flow, SolveError> {
     let begun = Instant::now();
     let unknowns = problem.unknowns;
-    let equations = Equations::new(problem, carried, drive)?;
+    let equations = Equations::new(problem, excess_rate, drive)?;
     let system = equations.system(problem);
     let mut u: Vec<f64> = (unknowns.faces.iter())
-        .map(|&face| guess.velocity[face as usize])
+        .map(|&face| start.velocity[face as usize])
         .collect();
     let mut p: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| guess.pressure[pore as usize])
+        .map(|&pore| start.pressure[pore as usize])
         .chain(problem.pockets.iter().map(|_| 0.0))
         .collect();
     let mut speed = drive.speed();
@@ -88,7 +96,7 @@ pub(crate) fn solve(
                 momentum: equations.closing.clone(),
                 source: equations.source.clone(),
                 resistance: problem.resistance(),
-                force: force - equations.carried_force,
+                force: force - equations.known_body_force,
                 scale: scale.max(f64::MIN_POSITIVE),
             };
             solver.solve_loaded(&system, &load, &mut u, &mut p, &mut speed)
@@ -106,47 +114,47 @@ pub(crate) fn solve(
     })
 }
 
-/// Forces on the bodies along y, over the unit of viscosity: pressure and viscous tension on walls across y, friction on
-/// those along it.
+/// Forces on the bodies along y, over the unit of viscosity: pressure and viscous normal stress on walls normal to y, friction
+/// on those parallel to it.
 pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
     let mesh = problem.mesh;
     let mut forces = vec![0.0; bodies];
-    let mut push = |code: u8, force: f64| {
+    let mut add_force = |code: u8, force: f64| {
         if code != OPEN && code != MIRROR {
             forces[usize::from(code - 1)] += force;
         }
     };
     let part = 1.0 / (mesh.k * mesh.k) as f64;
-    let closed_in = problem.pockets.iter().flat_map(|pocket| &pocket.pores);
-    for &pore in problem.unknowns.pores.iter().chain(closed_in) {
+    let pocket_pores = problem.pockets.iter().flat_map(|pocket| &pocket.pores);
+    for &pore in problem.unknowns.pores.iter().chain(pocket_pores) {
         let pore = pore as usize;
         let p = flow.pressure[pore];
         for voxel in mesh.voxels(pore) {
             for (up, sign) in [(false, -1.0), (true, 1.0)] {
                 if let Some((cell, voxel)) = mesh.next_voxel(mesh.cell(pore), voxel, 1, up) {
-                    push(mesh.code(cell, voxel), sign * p * part);
+                    add_force(mesh.code(cell, voxel), sign * p * part);
                 }
             }
         }
     }
     for &face in &problem.unknowns.faces {
         let face = face as usize;
-        let link = problem.links.of(face);
+        let coupling = problem.couplings.of(face);
         if mesh.faces[face].axis == 1 {
             let weights = problem.wall_weights(face);
             let drag: f64 = (0..2)
                 .map(|half| {
-                    let wall = link.sliding[half][0] + flow.speed * link.sliding[half][1];
-                    weights[half] * (link.friction[half] * flow.velocity[face] - wall)
+                    let wall = coupling.sliding[half][0] + flow.speed * coupling.sliding[half][1];
+                    weights[half] * (coupling.friction[half] * flow.velocity[face] - wall)
                 })
                 .sum();
-            push(link.body, drag);
-            for (pore, up) in problem.ends(face).into_iter().zip([false, true]) {
-                stretching(mesh, face, up, |pull| {
-                    if pull.other.is_none() {
-                        let against = flow.velocity[face] - pull.closing * flow.speed;
-                        let tension = problem.stiffness(pore) * pull.weight * against;
-                        push(wall_ahead(problem, pore, up), tension);
+            add_force(coupling.body, drag);
+            for (pore, up) in problem.face_pores(face).into_iter().zip([false, true]) {
+                stretching(mesh, face, up, |term| {
+                    if term.other.is_none() {
+                        let against = flow.velocity[face] - term.closing * flow.speed;
+                        let tension = problem.stiffness(pore) * term.weight * against;
+                        add_force(wall_ahead(problem, pore, up), tension);
                     }
                 });
             }

@@ -1,36 +1,37 @@
-//! Stretching of the pores on the two sides of a face.
+//! Viscous normal stress: stretching of the pores on the two sides of a face (docs/methods.md section 3.4).
 
 use crate::geometry::{Mesh, RowKind};
 
-/// A velocity that pulls at a face with a weight; the wall ahead has none.
+/// A term of the stretching of a pore: the weight of the difference between the velocities of a face and of the opposite
+/// face or wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pull {
-    /// The other face; `None` for the wall ahead.
+pub(crate) struct StretchTerm {
+    /// The opposite face; `None` for a wall.
     pub(crate) other: Option<usize>,
     pub(crate) weight: f64,
-    /// Difference of velocities across the pore that the closing of its row makes, per closing speed, seen from this face.
+    /// Velocity difference across the pore by the closing of its row, per closing speed, with the sign as seen from this face.
     pub(crate) closing: f64,
 }
 
-/// Pulls at `face` of the stretching of the pore on its high (`up`) or low side, per viscosity and liquid fraction.
-pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(Pull)) {
+/// Visits the terms of the stretching of the pore on the high (`up`) or low side of `face`, per viscosity and liquid fraction.
+pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(StretchTerm)) {
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
-    let pore = f.ends()[usize::from(up)];
+    let pore = f.pores()[usize::from(up)];
     let edge = mesh.edge(pore, axis);
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
-    let own = mesh.share(face, pore, axis, !up);
+    let own = mesh.area_share(face, pore, axis, !up);
     let closing = match (axis, mesh.rows().kind(mesh.row_of(pore))) {
         (1, RowKind::Gap) => 1.0 / mesh.rows().gap as f64,
         _ => 0.0,
     };
-    // The high side moves against the low one by the closing.
+    // The high side of the pore approaches the low one.
     let closing = if up { -closing } else { closing };
     let ahead = mesh.faces_at(pore, axis, up);
     if ahead.len() == 0 {
-        // Half an edge at least: behind each open voxel face is a voxel.
+        // At least half an edge: a voxel lies behind each open voxel face.
         let distance = (mesh.volume(pore) / mesh.area(face) / edge).min(1.0);
-        add(Pull {
+        add(StretchTerm {
             other: None,
             weight: weight * own / (distance * distance),
             closing,
@@ -38,9 +39,9 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
         return;
     }
     for other in ahead {
-        add(Pull {
+        add(StretchTerm {
             other: Some(other),
-            weight: weight * own * mesh.share(other, pore, axis, up),
+            weight: weight * own * mesh.area_share(other, pore, axis, up),
             closing,
         });
     }

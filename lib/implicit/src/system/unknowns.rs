@@ -1,62 +1,63 @@
-//! Which pores have a pressure and which faces a velocity.
+//! The unknowns of a step: pressures of full pores, velocities of faces with liquid (docs/methods.md section 3.3).
 
 use std::num::NonZeroU32;
 
 use crate::geometry::Mesh;
 use crate::liquid::TRACE;
 
-/// Volume fraction from which on a pore is full and has a pressure of its own, which fills what it lacks within the step. With
-/// 0.8 the force of a piston in a slit of three cells scatters by 4.0 % instead of 1.6; with 0.98 what a front's shape
-/// adds in a duct of six is off by 0.035 widths of flow instead of 0.017.
+/// Volume fraction from which on a pore counts as full: it has an unknown pressure, and fills up within the step. With 0.8
+/// the force of a piston in a slit of three cells scatters by 4.0 % instead of 1.6 %; with 0.98 the pressure added by a
+/// front's shape in a duct of six cells is off by that of 0.035 widths of flow instead of 0.017.
 pub(crate) const FULL: f64 = 0.9;
 
-/// Numbers of the unknowns of a step: of velocities along rows of cells, one component after the other, so that neighbours
-/// are near in memory and consecutive rows of the velocity block couple to equal distances, which the solver packs.
+/// Numbering of the unknowns of a step. Velocities are numbered along rows of cells, one component after the other:
+/// neighbours are close in memory, and consecutive rows of the velocity block have the same column offsets, which the solver
+/// packs.
 pub(crate) struct Unknowns {
-    /// Faces with a velocity.
+    /// Faces with an unknown velocity.
     pub(crate) faces: Vec<u32>,
-    /// Pores with a pressure.
+    /// Pores with an unknown pressure.
     pub(crate) pores: Vec<u32>,
-    /// One more than the number of the velocity of each face that has one, in four bytes.
+    /// Number of the velocity of each face plus one, so that the option takes four bytes.
     face_number: Vec<Option<NonZeroU32>>,
-    /// Whether each pore has one.
-    bounded: Vec<bool>,
+    /// Whether each pore has an unknown pressure.
+    has_pressure: Vec<bool>,
 }
 
 impl Unknowns {
-    /// Those of pores filled to `fractions`, where those that are `torn` have no pressure.
+    /// Numbers the unknowns of pores filled to `fractions`; `torn` ones have no unknown pressure.
     pub(crate) fn new(mesh: &Mesh, fractions: &[f64], torn: &[bool]) -> Self {
         let full = |pore: usize| fractions[pore] >= FULL && !torn[pore];
         let mut unknowns = Self {
             faces: Vec::new(),
             pores: Vec::new(),
             face_number: vec![None; mesh.faces.len()],
-            bounded: vec![false; mesh.pores.len()],
+            has_pressure: vec![false; mesh.pores.len()],
         };
         for face in by_rows(mesh) {
-            let ends = mesh.faces[face].ends();
+            let pores = mesh.faces[face].pores();
             let liquid = |pore: usize| fractions[pore] * mesh.volume(pore);
-            let wet = || ends.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
-            if !(ends.iter().any(|&pore| full(pore)) || wet()) {
+            let wet = || pores.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
+            if !(pores.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }
             unknowns.faces.push(face as u32);
             unknowns.face_number[face] = NonZeroU32::new(unknowns.faces.len() as u32);
-            for pore in ends.into_iter().filter(|&pore| full(pore)) {
-                unknowns.bounded[pore] = true;
+            for pore in pores.into_iter().filter(|&pore| full(pore)) {
+                unknowns.has_pressure[pore] = true;
             }
         }
         let pores = 0..mesh.pores.len() as u32;
-        unknowns.pores = (pores.filter(|&pore| unknowns.bounded[pore as usize])).collect();
+        unknowns.pores = (pores.filter(|&pore| unknowns.has_pressure[pore as usize])).collect();
         unknowns
     }
 
-    /// Whether a pore has a pressure.
+    /// Whether the pressure of a pore is an unknown.
     pub(crate) fn has_pressure(&self, pore: usize) -> bool {
-        self.bounded[pore]
+        self.has_pressure[pore]
     }
 
-    /// Number of the velocity of a face.
+    /// Number of the velocity of a face; `None` if it is no unknown.
     pub(crate) fn face(&self, face: usize) -> Option<usize> {
         self.face_number[face].map(|number| number.get() as usize - 1)
     }

@@ -1,16 +1,16 @@
-//! Shear rates of a flow, and the viscosities that follow from them.
+//! Shear rates of a flow, and the viscosities that follow from them (docs/methods.md section 3.8).
 
 use physics::{Liquid, ShearRate, Viscosity};
 use rayon::prelude::*;
 
+use super::couplings::WallCouplings;
 use super::edges::Edges;
-use super::links::Links;
 use super::stretching::stretching;
 use super::thinning::{steepness, thinning_distance};
-use crate::geometry::{Mesh, Way, others};
+use crate::geometry::{Mesh, Neighbour, others};
 
-/// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge; none of the latter two
-/// where they are those of the pores.
+/// Viscosities over their unit: of each pore, at the walls of the two halves of each face, and at each edge. The latter two are
+/// empty where the viscosities of the pores apply.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Viscosities {
     pub(crate) pores: Vec<f64>,
@@ -27,19 +27,19 @@ impl Viscosities {
         }
     }
 
-    /// Those at the walls of the halves of a face between two pores.
+    /// Viscosities at the walls of the two halves of a face; `ends` are its pores.
     pub(super) fn at_walls(&self, face: usize, ends: [usize; 2]) -> [f64; 2] {
         let own = self.walls.get(face).copied();
         own.unwrap_or_else(|| ends.map(|pore| self.pores[pore]))
     }
 
-    /// Those of a flow: `factor` times the law of the liquid, in Pa s. Walls have their rate times their share, and the viscosity
-    /// there times it; `slip` is the influence length, cells.
+    /// Viscosities at the `rates` of a flow: `factor` times the law of the liquid (Pa s). At walls both the rate and the
+    /// viscosity are multiplied by the thinning factor; `slip` is the influence length, cells.
     pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
         let law = &liquid.viscosity;
         let at = |rate: f64| factor * law.at(rate);
-        let wall = |wall: &Wall| {
-            let share = wall.share(law, slip);
+        let wall = |wall: &WallShear| {
+            let share = wall.thinning_factor(law, slip);
             [share * at(share * wall.rate); 2]
         };
         Self {
@@ -49,13 +49,13 @@ impl Viscosities {
         }
     }
 
-    /// These times a factor of each pore.
+    /// The viscosities times a `factor` of each pore; edges take the mean of the four pores around.
     pub(crate) fn thickened(&self, mesh: &Mesh, edges: &Edges, factor: &[f64]) -> Self {
         let mut thick = self.clone();
         if !thick.edges.is_empty() {
             for face in 0..mesh.faces.len() {
                 for (index, edge) in edges.of(face).iter().enumerate() {
-                    let around = [face, edge.next as usize].map(|face| mesh.faces[face].ends());
+                    let around = [face, edge.next as usize].map(|face| mesh.faces[face].pores());
                     let sum: f64 = around.as_flattened().iter().map(|&pore| factor[pore]).sum();
                     thick.edges[edges.first(face) + index] *= 0.25 * sum;
                 }
@@ -72,19 +72,20 @@ impl Viscosities {
     }
 }
 
-/// Rate of simple shear at walls, 1/s, the distance to them, the width between them, and where the first edge lies off them,
-/// cells.
+/// Shear at the walls of a face: the rate of simple shear, 1/s, the effective distance d_w, the width H of the channel, and the
+/// distance of the first edge from the wall, cells.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Wall {
+pub(crate) struct WallShear {
     pub(super) rate: f64,
     distance: f64,
     width: f64,
     first: f64,
 }
 
-impl Wall {
-    /// What the rate there is multiplied by, and the viscosity, for the distance that suits a liquid of this `law`.
-    pub(super) fn share(&self, law: &Viscosity, slip: f64) -> f64 {
+impl WallShear {
+    /// Ratio of the wall distances of a Newtonian liquid and of one with this `law`, a factor on both the rate and the
+    /// viscosity.
+    pub(super) fn thinning_factor(&self, law: &Viscosity, slip: f64) -> f64 {
         if self.rate <= 0.0 {
             return 1.0;
         }
@@ -94,16 +95,16 @@ impl Wall {
     }
 }
 
-/// Shear rates, 1/s, by the convention of the scene: of each pore and edge; and at the walls of each face.
+/// Shear rates, 1/s: of each pore and edge by the scene's convention, and at the walls of each face.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {
     pub(crate) pores: Vec<f64>,
     pub(super) edges: Vec<f64>,
-    pub(super) walls: Vec<Wall>,
+    pub(super) walls: Vec<WallShear>,
 }
 
 impl Rates {
-    /// Dissipation of each pore where liquid has these viscosities.
+    /// Viscous dissipation in each pore with these viscosities.
     pub(crate) fn power(
         &self,
         viscosities: &Viscosities,
@@ -118,28 +119,28 @@ impl Rates {
     }
 }
 
-/// The rate of a square of that of simple shear.
-fn of_shear(square: f64, convention: ShearRate) -> f64 {
+/// Shear rate by the convention, from the square of the rate of simple shear, 2 D:D.
+fn rate_of_square(square: f64, convention: ShearRate) -> f64 {
     // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
     convention.factor() / std::f64::consts::SQRT_2 * square.max(0.0).sqrt()
 }
 
-/// A flow with the friction of walls, to take rates of.
+/// A flow with the wall couplings and edges that its shear rates depend on.
 pub(crate) struct FlowField<'a> {
     pub(crate) mesh: &'a Mesh,
-    pub(crate) links: &'a Links,
+    pub(crate) couplings: &'a WallCouplings,
     pub(crate) edges: &'a Edges,
-    /// Velocity of each face, cells/s.
+    /// Velocity of each face relative to the grid, cells/s.
     pub(crate) velocity: &'a [f64],
     /// Closing speed, cells/s.
     pub(crate) speed: f64,
 }
 
 impl FlowField<'_> {
-    /// Rates of pores, edges and walls. That of a pore has the mean dissipation over it.
+    /// Shear rates of pores, edges and walls. That of a pore is the rate with its mean dissipation.
     pub(crate) fn rates(&self, convention: ShearRate, slip: f64) -> Rates {
         let (pores, parts) = self.pore_rates(convention);
-        let rate = |square: f64| of_shear(square, convention);
+        let rate = |square: f64| rate_of_square(square, convention);
         let edges = self.edges.rates(self.mesh, self.velocity, &parts);
         Rates {
             pores,
@@ -151,26 +152,25 @@ impl FlowField<'_> {
         }
     }
 
-    /// Those of pores alone, and the parts of their squares, whose dissipation is the mean over each: by stretching, and by shear
-    /// around each axis.
+    /// Shear rates of pores, and the parts of their squares: by stretching, and by shear about x, y, z.
     pub(crate) fn pore_rates(&self, convention: ShearRate) -> (Vec<f64>, Vec<[f64; 4]>) {
         let mesh = self.mesh;
         let sheared: Vec<[f64; 2]> = (0..mesh.faces.len())
             .into_par_iter()
-            .map(|face| self.sheared(face))
+            .map(|face| self.edge_dissipation(face))
             .collect();
         let (parts, walls): (Vec<[f64; 4]>, Vec<f64>) = (0..mesh.pores.len())
             .into_par_iter()
-            .map(|pore| self.parts(pore, &sheared))
+            .map(|pore| self.square_parts(pore, &sheared))
             .unzip();
         let square = |(parts, walls): (&[f64; 4], &f64)| parts.iter().sum::<f64>() + walls;
         let rates = parts.iter().zip(&walls);
-        let rates = rates.map(|of| of_shear(square(of), convention));
+        let rates = rates.map(|of| rate_of_square(square(of), convention));
         (rates.collect(), parts)
     }
 
-    /// Dissipation at the edges of a face, a quarter of each, by the axis that they lie along, the lower first.
-    fn sheared(&self, face: usize) -> [f64; 2] {
+    /// Dissipation over viscosity at the edges of a face, a quarter of each, summed by the axis of the edge, the lower first.
+    fn edge_dissipation(&self, face: usize) -> [f64; 2] {
         let (mesh, u) = (self.mesh, self.velocity);
         let [first, _] = others(usize::from(mesh.faces[face].axis));
         let mut sums = [0.0; 2];
@@ -180,65 +180,66 @@ impl FlowField<'_> {
             if along == 0.0 {
                 continue;
             }
-            let [shear, length] = edge.measured(mesh, face);
+            let [shear, length] = edge.geometry(mesh, face);
             let sheared = shear * along + length * across;
             sums[usize::from(edge.axis(mesh, face) != first)] += 0.25 * along * sheared;
         }
         sums
     }
 
-    /// The squares of one pore, by the shear of faces.
-    fn parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
+    /// Parts of the squared shear rate of a pore: stretching and shear about x, y, z; and that by wall friction. `sheared` is
+    /// [`Self::edge_dissipation`] of each face.
+    fn square_parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
-        for Way { face, axis, up, .. } in mesh.ways(pore) {
+        for Neighbour { face, axis, up, .. } in mesh.neighbours(pore) {
             if !up {
                 // The pore is on the high side of its low faces.
-                stretching(mesh, face, true, |pull| {
-                    let other = pull.other.map_or(0.0, |other| u[other]);
-                    let rate = other - u[face] + pull.closing * self.speed;
-                    parts[0] += pull.weight * rate.powi(2);
+                stretching(mesh, face, true, |term| {
+                    let other = term.other.map_or(0.0, |other| u[other]);
+                    let rate = other - u[face] + term.closing * self.speed;
+                    parts[0] += term.weight * rate.powi(2);
                 });
             }
             for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
                 parts[1 + around] += sheared;
             }
-            let link = self.links.of(face);
+            let coupling = self.couplings.of(face);
             let half = usize::from(!up);
-            if link.friction[half] > 0.0 {
-                let [own, closing] = link.sliding[half];
-                let wall = (own + closing * self.speed) / link.friction[half];
-                walls += link.friction[half] * (u[face] - wall).powi(2);
+            if coupling.friction[half] > 0.0 {
+                let [own, closing] = coupling.sliding[half];
+                let wall = (own + closing * self.speed) / coupling.friction[half];
+                walls += coupling.friction[half] * (u[face] - wall).powi(2);
             }
         }
         let volume = mesh.volume(pore);
         (parts.map(|part| part / volume), walls / volume)
     }
 
-    /// What the walls of a face do.
-    fn wall_rate(&self, face: usize, slip: f64) -> Wall {
-        let link = self.links.of(face);
-        let friction: f64 = link.friction.iter().sum();
+    /// Shear at the walls of a face; `slip` is the influence length, cells.
+    fn wall_rate(&self, face: usize, slip: f64) -> WallShear {
+        let coupling = self.couplings.of(face);
+        let friction: f64 = coupling.friction.iter().sum();
         if friction == 0.0 {
-            return Wall::default();
+            return WallShear::default();
         }
         let wall: f64 = (0..2)
-            .map(|half| link.sliding[half][0] + link.sliding[half][1] * self.speed)
+            .map(|half| coupling.sliding[half][0] + coupling.sliding[half][1] * self.speed)
             .sum();
-        if link.area == 0.0 {
-            // Past a corner alone, a cell off.
-            return Wall {
+        if coupling.area == 0.0 {
+            // Only past a corner: the wall is a cell away.
+            return WallShear {
                 rate: (self.velocity[face] - wall / friction).abs(),
                 distance: 1.0,
                 width: f64::INFINITY,
                 first: 1.0,
             };
         }
-        Wall {
-            rate: (friction * self.velocity[face] - wall).abs() / link.area,
-            distance: (link.area / friction - slip).max(0.0),
-            width: link.narrowness.powf(-0.5),
-            first: link.height / link.area,
+        WallShear {
+            rate: (friction * self.velocity[face] - wall).abs() / coupling.area,
+            distance: (coupling.area / friction - slip).max(0.0),
+            width: coupling.inverse_width_squared.powf(-0.5),
+            first: coupling.height / coupling.area,
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Water that goes from the liquid into the walls: what a step moves between pores and into walls.
+//! Loss of water: diffusion between pores and uptake by walls (docs/methods.md section 3.11).
 
 mod solve;
 mod walls;
 
 pub(crate) use solve::{Node, solve};
-pub(crate) use walls::Walls;
+pub(crate) use walls::AbsorbingWalls;

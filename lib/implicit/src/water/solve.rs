@@ -1,117 +1,120 @@
-//! The balance of water in all pores: X of each, not below what walls leave.
+//! Water balance of all pores: solves for the water ratio X of each, bounded from below by the limit of the walls' uptake.
 
-use crate::system::PASSES;
+use crate::system::MAX_PASSES;
 
-/// Relative residual of the solution, so far below what a step moves that a run loses no water by it; a smaller one is rounding.
+/// Relative residual of the solution, small enough that a run conserves water; a smaller one is below rounding.
 const TOLERANCE: f64 = 1e-10;
-/// Part of the limit by which X may fall short of it: above what the solution is off by.
-const HAIR: f64 = 10.0 * TOLERANCE;
+/// Relative tolerance on the lower limit of X, above the error of the solution.
+const LIMIT_TOLERANCE: f64 = 10.0 * TOLERANCE;
 
-/// A pore with liquid.
+/// A pore with liquid, as a node of the water balance.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) pore: u32,
     /// Volume of the solids, cells.
     pub(crate) solids: f64,
-    /// Water over solids.
+    /// X_0, water over solids by volume at the start of the step.
     pub(crate) ratio: f64,
-    /// What its walls ask for, cells.
-    pub(crate) asked: f64,
-    /// Nodes beside it, with what a difference of X passes on.
-    pub(crate) beside: Vec<(u32, f64)>,
+    /// Water that its walls take if X stays above the limit, q, cells.
+    pub(crate) demand: f64,
+    /// Neighbouring nodes and the diffusive conductance K to each.
+    pub(crate) neighbours: Vec<(u32, f64)>,
 }
 
 impl Node {
-    /// Water that comes from the nodes beside node `own`.
+    /// Diffusive inflow into this node, number `own`.
     pub(crate) fn inflow(&self, ratio: &[f64], own: usize) -> f64 {
-        let each = self.beside.iter();
+        let each = self.neighbours.iter();
         each.map(|&(n, k)| k * (ratio[n as usize] - ratio[own]))
             .sum()
     }
 
-    /// What a change of its X by one takes of water, with its neighbours' as they are.
+    /// Diagonal of the matrix.
     fn diagonal(&self) -> f64 {
-        self.solids + self.beside.iter().map(|(_, k)| k).sum::<f64>()
+        self.solids + self.neighbours.iter().map(|(_, k)| k).sum::<f64>()
     }
 }
 
-/// X of each node, and whether it is held at the least that walls leave; `None` where no balance was found.
-pub(crate) fn solve(nodes: &[Node], least: f64) -> Option<(Vec<f64>, Vec<bool>)> {
+/// X of each node, at least `min_ratio`, and whether it is at that limit; `None` where the active set did not settle.
+pub(crate) fn solve(nodes: &[Node], min_ratio: f64) -> Option<(Vec<f64>, Vec<bool>)> {
     let mut ratio: Vec<f64> = nodes.iter().map(|node| node.ratio).collect();
-    let mut held: Vec<bool> = (nodes.iter())
-        .map(|node| node.asked > 0.0 && node.ratio <= least * (1.0 + HAIR))
+    let mut at_limit: Vec<bool> = (nodes.iter())
+        .map(|node| node.demand > 0.0 && node.ratio <= min_ratio * (1.0 + LIMIT_TOLERANCE))
         .collect();
-    // Pores change sides between those that still give all that is asked for and those at the limit.
-    for _ in 0..PASSES {
-        for (x, held) in ratio.iter_mut().zip(&held) {
-            *x = if *held { least } else { *x };
+    // Active set: nodes switch between meeting the whole demand and resting at the limit.
+    for _ in 0..MAX_PASSES {
+        for (x, at_limit) in ratio.iter_mut().zip(&at_limit) {
+            *x = if *at_limit { min_ratio } else { *x };
         }
-        if !gradients(nodes, &held, &mut ratio) {
+        if !conjugate_gradients(nodes, &at_limit, &mut ratio) {
             return None;
         }
-        let mut turned = false;
+        let mut changed = false;
         for (n, node) in nodes.iter().enumerate() {
-            if node.asked == 0.0 {
+            if node.demand == 0.0 {
                 continue;
             }
             let supply = node.solids * (node.ratio - ratio[n]) + node.inflow(&ratio, n);
-            let turn = match held[n] {
-                true => supply > node.asked * (1.0 + HAIR),
-                false => ratio[n] < least * (1.0 - HAIR),
+            let switch = match at_limit[n] {
+                true => supply > node.demand * (1.0 + LIMIT_TOLERANCE),
+                false => ratio[n] < min_ratio * (1.0 - LIMIT_TOLERANCE),
             };
-            held[n] ^= turn;
-            turned |= turn;
+            at_limit[n] ^= switch;
+            changed |= switch;
         }
-        if !turned {
-            return Some((ratio, held));
+        if !changed {
+            return Some((ratio, at_limit));
         }
     }
     None
 }
 
-/// Solves V_s (X - X_0) = sum K (X_n - X) - q for the nodes that are not held by conjugate gradients with the diagonal;
-/// whether that came to its tolerance.
-fn gradients(nodes: &[Node], held: &[bool], ratio: &mut [f64]) -> bool {
+/// Solves V_s (X - X_0) = sum K (X_n - X) - q for the nodes that are not at the limit, by conjugate gradients with a diagonal
+/// preconditioner. Returns whether it converged.
+fn conjugate_gradients(nodes: &[Node], at_limit: &[bool], ratio: &mut [f64]) -> bool {
     let defect = |ratio: &[f64], n: usize| {
         let node = &nodes[n];
-        match held[n] {
+        match at_limit[n] {
             true => 0.0,
-            false => node.inflow(ratio, n) - node.asked - node.solids * (ratio[n] - node.ratio),
+            false => node.inflow(ratio, n) - node.demand - node.solids * (ratio[n] - node.ratio),
         }
     };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let count = nodes.len();
-    let mut rest: Vec<f64> = (0..count).map(|n| defect(ratio, n)).collect();
-    let scale: f64 = (nodes.iter().zip(held).filter(|(_, held)| !**held))
-        .map(|(node, _)| (node.diagonal() * node.ratio).powi(2))
-        .sum();
-    let scaled = |rest: &[f64]| -> Vec<f64> {
-        let each = rest.iter().zip(nodes);
+    let mut residual: Vec<f64> = (0..count).map(|n| defect(ratio, n)).collect();
+    let scale: f64 = (nodes
+        .iter()
+        .zip(at_limit)
+        .filter(|(_, at_limit)| !**at_limit))
+    .map(|(node, _)| (node.diagonal() * node.ratio).powi(2))
+    .sum();
+    let scaled = |residual: &[f64]| -> Vec<f64> {
+        let each = residual.iter().zip(nodes);
         each.map(|(r, node)| r / node.diagonal()).collect()
     };
-    let mut correction = scaled(&rest);
-    let mut way = correction.clone();
-    let mut size = dot(&rest, &correction);
-    // But for rounding, as many steps as there are unknowns are enough.
+    let mut correction = scaled(&residual);
+    let mut direction = correction.clone();
+    let mut size = dot(&residual, &correction);
+    // Exact after as many steps as there are unknowns, but for rounding.
     for _ in 0..=count {
-        if dot(&rest, &rest) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
+        if dot(&residual, &residual) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
             return true;
         }
         let image: Vec<f64> = (0..count)
-            .map(|n| match held[n] {
+            .map(|n| match at_limit[n] {
                 true => 0.0,
-                false => nodes[n].solids * way[n] - nodes[n].inflow(&way, n),
+                false => nodes[n].solids * direction[n] - nodes[n].inflow(&direction, n),
             })
             .collect();
-        let step = size / dot(&way, &image);
+        let step = size / dot(&direction, &image);
         for n in 0..count {
-            ratio[n] += step * way[n];
-            rest[n] -= step * image[n];
+            ratio[n] += step * direction[n];
+            residual[n] -= step * image[n];
         }
-        correction = scaled(&rest);
-        let last = std::mem::replace(&mut size, dot(&rest, &correction));
-        for (w, c) in way.iter_mut().zip(&correction) {
-            *w = c + size / last * *w;
+        correction = scaled(&residual);
+        let previous = std::mem::replace(&mut size, dot(&residual, &correction));
+        for (w, c) in direction.iter_mut().zip(&correction) {
+            *w = c + size / previous * *w;
         }
     }
     false

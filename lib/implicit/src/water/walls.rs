@@ -1,22 +1,22 @@
-//! Walls that take water: the area of them that each pore has.
+//! Absorbing walls: the wall area of each pore.
 //!
-//! An inclined wall of voxels is a staircase, up to sqrt 2 times as long as what it stands for. So of each voxel face its
-//! area counts times the cosine between its normal and the way to the middle of what is open around it.
+//! An inclined wall of voxels is a staircase, up to sqrt 2 times as long as the smooth wall. So each voxel face counts with
+//! the cosine between its normal and the direction to the centre of the open space around it.
 
 use physics::Boundary;
 use rayon::prelude::*;
 
 use crate::geometry::{Lattice, MIRROR, Mesh, OPEN};
 
-/// Cells around a face that its inclination is found from: a tube of six cells is then 2 % too large. More round corners off,
-/// less sees a single step.
-const AROUND: f64 = 1.3;
+/// Radius around a voxel face that decides its inclination, cells: a tube of six cells is then 2 % too large. A larger radius
+/// rounds corners, a smaller one sees single steps.
+const RADIUS: f64 = 1.3;
 
-/// Area of walls that take water, cells, of each pore: normal to y, and others over the height of the row.
-pub(crate) struct Walls(Vec<[f64; 2]>);
+/// Absorbing wall area of each pore, cells: that normal to y, and that parallel to y per row height.
+pub(crate) struct AbsorbingWalls(Vec<[f64; 2]>);
 
-impl Walls {
-    /// Those of bodies that `take` water.
+impl AbsorbingWalls {
+    /// The walls of bodies that `take` water.
     pub(crate) fn new(lattice: &Lattice, mesh: &Mesh, take: &[bool]) -> Self {
         let takes = |code: u8| code != OPEN && code != MIRROR && take[usize::from(code - 1)];
         let areas = |pore: usize| {
@@ -37,14 +37,14 @@ impl Walls {
         Self((0..mesh.pores.len()).into_par_iter().map(areas).collect())
     }
 
-    /// Area of a pore, cells.
+    /// Absorbing wall area of a pore, cells.
     pub(crate) fn area(&self, mesh: &Mesh, pore: usize) -> f64 {
         let [across, along] = self.0[pore];
         across + mesh.height(pore) * along
     }
 }
 
-/// Cosine between the normal of the face of a voxel and the way to the middle of what is open around it.
+/// Cosine between the normal of a voxel face and the direction to the centre of the open space around it.
 fn inclination(
     lattice: &Lattice,
     mesh: &Mesh,
@@ -54,18 +54,18 @@ fn inclination(
     up: bool,
 ) -> f64 {
     let k = mesh.k as i64;
-    let [x, _, z] = mesh.place(cell);
+    let [x, _, z] = mesh.cell_indices(cell);
     let row = mesh.row(cell) as i64 - mesh.rows().below as i64;
     let cells = [
-        x as i64 - mesh.beyond[0] as i64,
+        x as i64 - mesh.ghost_layers[0] as i64,
         row,
-        z as i64 - mesh.beyond[2] as i64,
+        z as i64 - mesh.ghost_layers[2] as i64,
     ];
     let at: [i64; 3] = std::array::from_fn(|a| cells[a] * k + voxel[a] as i64);
-    let radius = AROUND * mesh.k as f64;
+    let radius = RADIUS * mesh.k as f64;
     let reach = (radius + 0.5) as i64;
     let deep = if lattice.flat { 0 } else { reach };
-    let mut way = [0.0; 3];
+    let mut centroid = [0.0; 3];
     for dz in -deep..=deep {
         for dy in -reach..=reach {
             for dx in -reach..=reach {
@@ -74,22 +74,21 @@ fn inclination(
                 from_face[axis] += if up { -0.5 } else { 0.5 };
                 let square = from_face.iter().map(|d| d * d).sum::<f64>();
                 let weight = 1.0 - square / (radius * radius);
-                let place = std::array::from_fn(|a| at[a] + offset[a]);
-                if weight > 0.0 && is_open(lattice, mesh.rows().gap as i64 * k, place) {
-                    (0..3).for_each(|a| way[a] += weight * from_face[a]);
+                let voxel_at = std::array::from_fn(|a| at[a] + offset[a]);
+                if weight > 0.0 && is_open(lattice, mesh.rows().gap as i64 * k, voxel_at) {
+                    (0..3).for_each(|a| centroid[a] += weight * from_face[a]);
                 }
             }
         }
     }
-    let length = way.iter().map(|d| d * d).sum::<f64>().sqrt();
-    let inwards = if up { -way[axis] } else { way[axis] };
+    let length = centroid.iter().map(|d| d * d).sum::<f64>().sqrt();
+    let inwards = if up { -centroid[axis] } else { centroid[axis] };
     (inwards / length).max(0.0)
 }
 
-/// Whether a voxel is open: its places along x and z, and above the low side of a gap of so many layers; sides mirror
-/// or go on.
+/// Whether the voxel with the indices x, y (from the low side of a gap of `gap` layers), z is open; sides mirror or repeat.
 fn is_open(lattice: &Lattice, gap: i64, [x, y, z]: [i64; 3]) -> bool {
-    let [nx, nz] = lattice.across().map(|n| n as i64);
+    let [nx, nz] = lattice.layer_size().map(|n| n as i64);
     let (Some(x), Some(z)) = (
         within(x, nx, lattice.boundary[0]),
         within(z, nz, lattice.boundary[2]),
@@ -109,7 +108,7 @@ fn is_open(lattice: &Lattice, gap: i64, [x, y, z]: [i64; 3]) -> bool {
     layer[(x + nx * z) as usize] == OPEN
 }
 
-/// The place of `n` that a place is or stands for beyond a side; `None` beyond an open one.
+/// Index within 0..n of a voxel, mirrored or repeated beyond a side; `None` beyond an open one.
 fn within(at: i64, n: i64, boundary: Boundary) -> Option<i64> {
     match boundary {
         _ if (0..n).contains(&at) => Some(at),

@@ -1,4 +1,4 @@
-//! Air that liquid closes off: pockets that part and meet, a clamp on air. Boyle's law: tests/verification.
+//! Enclosed air: pockets that split and merge, a clamp on air. Boyle's law: tests/verification.
 
 use implicit::Implicit;
 use physics::{Motion, Press, PressStage, Scene, Scheme, Stop, VoxelBlock};
@@ -35,7 +35,7 @@ fn air(scheme: &Implicit) -> f64 {
     scheme.save().f64s("air").unwrap().iter().sum()
 }
 
-/// Liquid that falls through air in a closed box parts and joins pockets; their air stays, also over a stop.
+/// Liquid that falls through air in a closed box splits and merges pockets; the air is conserved, across a restart too.
 #[test]
 fn pockets_that_part_and_meet_keep_their_air() {
     let h = 1e-6;
@@ -83,7 +83,7 @@ fn pressed_slit(rise: f64, time_s: f64, next: &[PressStage]) -> (Scene, f64) {
     (scene, part)
 }
 
-/// Air under pressure lifts a clamp that lets go, at once and by twelve cells or little more than one, to where it began.
+/// Compressed air lifts a clamp that releases it, at once, by twelve cells or little more than one, back to its start.
 #[test]
 fn air_that_was_pressed_lifts_a_clamp_that_lets_go() {
     for rise in [1.0, 0.06] {
@@ -101,8 +101,8 @@ fn air_that_was_pressed_lifts_a_clamp_that_lets_go() {
     }
 }
 
-/// A ramp of pressure against air under liquid that hardly resists: each step ends at the pressure that is set then,
-/// and a short step has no rise of the long one before it to catch up.
+/// A pressure ramp against air under liquid of low viscosity: each step ends at the set pressure of its end, so a short step
+/// need not catch up with the rise of a long one before it.
 #[test]
 fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
     let (rise, stage_s) = (1e5, 10.0);
@@ -129,7 +129,7 @@ fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
     assert!(ratio < 2.2 && off < 1e-2 && kept.abs() < 1e-12);
 }
 
-/// A run is objected to where the air is astray in more than a tenth of its steps.
+/// A run is unsound if the gas law is missed in more than a tenth of its steps.
 #[test]
 fn air_that_is_often_astray_is_objected_to() {
     let mut scheme = begun(&slit(Motion::Constant([0.0, -1e-3, 0.0])));

@@ -1,4 +1,4 @@
-//! A bond of voxels with lumens, pressed: what must not depend on how it lies, on threads, or on a stop on the way.
+//! A pressed bond of voxels with lumens: the result does not depend on its orientation, on threads, or on a restart.
 
 use implicit::Implicit;
 use physics::{
@@ -244,7 +244,7 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
     }
 }
 
-/// A clamp that has gone all its way stands for what is left of its programme.
+/// A clamp at the end of its travel stands for the rest of its programme.
 #[test]
 fn a_closed_clamp_stands_until_its_programme_ends() {
     let mut scene = scene(2, Boundary::Periodic, |x, z| [x, z]);

@@ -78,8 +78,8 @@ fn ratios(coarse: &[Step], fine: &[Step]) -> Vec<f64> {
     coarse.iter().map(ratio).collect()
 }
 
-/// One of two lumens fills within a step, wherever in it that is. What flows there beyond its room would come back in the steps
-/// after, at a pressure of its own: up to 7.7 times that of short steps.
+/// One of two lumens fills within a step, at any time in it. Flow beyond its free volume would return in later steps under a
+/// spurious pressure, up to 7.7 times that of short steps.
 #[test]
 fn a_lumen_that_fills_takes_no_more_than_its_room() {
     let fine: Vec<_> = (4..=9).map(|depth| (depth, course(depth, 0.05))).collect();

@@ -1,11 +1,11 @@
-//! Liquid that flies on, and that weight drives across rods.
+//! Liquid in free flight, and liquid driven across rods by its weight.
 
 use physics::{Boundary, Motion, Scheme, VoxelBlock, WallLaw};
 
 use crate::plain;
 use crate::runs::{advance, solved};
 
-/// Liquid that nothing touches goes on as it came, but for the friction by which all liquid has a velocity.
+/// Liquid in free flight keeps its velocity, but for the tiny friction that every face has.
 #[test]
 fn liquid_that_nothing_holds_keeps_its_velocity() {
     let (h, speed) = (1e-6, 0.25);
@@ -46,7 +46,7 @@ fn across_rods(finer: usize) -> f64 {
     found.viscous_power / (scene.liquid.density * scene.gravity[0] * found.volume)
 }
 
-/// Past corners differences have the error h^1.09. Rods of other sizes, in three dimensions: permeability.rs.
+/// Past corners the discretisation error is of order h^1.09. Rods of other sizes, in three dimensions: permeability.rs.
 #[test]
 fn flow_across_rods_in_plane_strain_is_that_of_finer_cells() {
     let [one, coarse, fine] = [1, 4, 8].map(across_rods);

@@ -7,11 +7,11 @@ use crate::runs::{ETA, H, advance, plainly};
 
 /// Surface tension, N/m.
 const SIGMA: f64 = 0.05;
-/// Cells across a passage.
+/// Cells across a channel.
 const N: usize = 6;
 
-/// Liquid that fills a passage along x between two menisci rests at minus their jump; a quarter of the section, in the corner
-/// of as much wood.
+/// Liquid in a channel along x between two menisci rests at minus their capillary pressure. The domain is a quarter of the
+/// section, in the corner of as much wood.
 #[test]
 fn liquid_between_two_menisci_rests() {
     let (h, w, far) = (H / N as f64, 0.5 * N as f64, 999.0);

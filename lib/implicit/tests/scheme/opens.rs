@@ -1,4 +1,4 @@
-//! A press programme whose bodies meet, and one whose clamp gives way.
+//! Press programmes whose bodies meet, and whose clamp retreats.
 
 use physics::{Boundary, Motion, Press, Scene, Scheme, Stop};
 
@@ -52,7 +52,7 @@ fn pressed(scene: &Scene, gap: f64) -> [f64; 3] {
     [least, now, volume]
 }
 
-/// Liquid that is closed in gives way by a hundredth of its volume and comes back, through rows of cells that the gap had lost.
+/// Enclosed liquid is compressed by a hundredth of its volume and expands again, through gap rows that had been removed.
 #[test]
 fn a_gap_that_opens_again_has_its_rows_and_its_liquid() {
     let gap = 9.05;
@@ -64,7 +64,7 @@ fn a_gap_that_opens_again_has_its_rows_and_its_liquid() {
     assert!((volume - 1.0).abs() < 1e-6);
 }
 
-/// Stages go on after the bodies have met.
+/// The stages go on after the bodies have met.
 #[test]
 fn a_programme_goes_on_after_its_bodies_have_met() {
     let gap = 0.8;
@@ -73,7 +73,7 @@ fn a_programme_goes_on_after_its_bodies_have_met() {
     assert!((volume - 1.0).abs() < 1e-6);
 }
 
-/// Where bodies meet no row of the gap is left, which would have liquid without a velocity.
+/// No gap row is left where the bodies meet: its liquid would have no velocity.
 #[test]
 fn liquid_of_a_gap_that_has_closed_has_velocities() {
     let gap = 0.8;
@@ -90,7 +90,7 @@ fn liquid_of_a_gap_that_has_closed_has_velocities() {
     assert!(!liquid.position.is_empty() && !liquid.position.iter().any(low));
 }
 
-/// Liquid that leaves counts in points of the scene, eight of which are in a cell of one voxel here.
+/// Outflow is counted in points of the scene, of which a cell of one voxel has eight here.
 #[test]
 fn liquid_that_leaves_counts_in_points() {
     let mut scene = scene(4.0, [16, 0], 1e9);

@@ -1,4 +1,4 @@
-//! Scenes that the grid cannot hold are refused.
+//! Scenes that the grid cannot represent are refused.
 
 use implicit::{Implicit, Settings};
 use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
@@ -11,7 +11,7 @@ const DOWN: Motion = Motion::Constant([0.0, -1.0, 0.0]);
 const ASIDE: Motion = Motion::Constant([1.0, 0.0, 0.0]);
 const SLANTING: Motion = Motion::Constant([1.0, -1.0, 0.0]);
 
-/// What is said of liquid among bodies in 8 x 8 cells of 1 m, the last side normal to y.
+/// The refusal of a scene of liquid among bodies in 8 x 8 cells of 1 m, if any; `side` is normal to y.
 fn refusal(bodies: Vec<(&str, VoxelBlock, Motion)>, side: Boundary) -> Option<String> {
     let body = |(name, block, motion)| plain::body(name, vec![block], motion);
     let scene = Scene {
@@ -33,7 +33,7 @@ fn what_the_grid_cannot_hold_is_refused() {
             DOWN,
             ([7.0, 5.0], [8.0, 6.5]),
             STILL,
-            Some("not alike along it"),
+            Some("not uniform along it"),
         ),
         (
             STILL,

@@ -13,19 +13,19 @@ pub const ETA: f64 = 1.3;
 /// Width of slits and tubes, m.
 pub const H: f64 = 17.4e-6;
 
-/// A scheme with settings as they are, but for what a test changes.
+/// A scheme with default settings, but for what a test changes.
 pub fn with(scene: &Scene, change: impl FnOnce(&mut Settings)) -> Implicit {
     let mut settings = Settings::default();
     change(&mut settings);
     Implicit::new(scene, settings).unwrap()
 }
 
-/// One with another tolerance of its solver.
+/// A scheme with another solver tolerance.
 pub fn solved(scene: &Scene, tolerance: f64) -> Implicit {
     with(scene, |settings| settings.tolerance = tolerance)
 }
 
-/// One with all settings as they are.
+/// A scheme with default settings.
 pub fn plainly(scene: &Scene) -> Implicit {
     with(scene, |_| ())
 }
@@ -77,7 +77,7 @@ pub fn block(h: f64, low: [f64; 2], high: [f64; 2]) -> VoxelBlock {
     VoxelBlock::solid_box([low[0] * h, low[1] * h, 0.0], [high[0] * h, high[1] * h, h])
 }
 
-/// Two bodies, the upper one with the way it moves.
+/// Two bodies, the upper one with its motion.
 pub fn press(scene: &mut Scene, names: [&str; 2], blocks: [Vec<VoxelBlock>; 2], upper: Motion) {
     let motions = [Motion::Fixed, upper];
     scene.bodies = (names.into_iter().zip(blocks).zip(motions))
@@ -95,7 +95,7 @@ pub fn clamp(closing_speed: f64, max_pressure: f64) -> Option<Clamp> {
     })
 }
 
-/// Volume of the liquid without its pressure.
+/// Volume of the liquid at zero pressure.
 pub fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
     (liquid.volume.iter().zip(&liquid.pressure))
         .map(|(&v, &p)| f64::from(v) / (1.0 + scene.liquid.tait.volume_change(f64::from(p))))

@@ -5,7 +5,8 @@ use physics::{Motion, Scheme};
 use crate::plain;
 use crate::runs::{ETA, advance, block, solved};
 
-/// Mean speed down over that of developed flow without a closed end, of liquid that pulls at its end with `pull` (Pa) and carries `most`.
+/// Mean downward speed over that of developed flow without a closed end. The weight puts the liquid at the closed end under the
+/// tension `pull` (Pa); it bears `most`.
 fn speed(pull: f64, most: f64) -> f64 {
     let (h, n, length) = (2.9e-6, 6, 24);
     let m = |cells: usize| cells as f64 * h;
@@ -45,7 +46,7 @@ fn liquid_is_torn_off_where_it_carries_too_much() {
     for pull in [2e5, 4e5] {
         let share = speed(pull, 1e5) / speed(pull, 1.0);
         println!("{share:.4} of the speed without tension");
-        // What comes apart is a layer, a cell or two of it.
+        // A layer of one or two cells is torn.
         assert!((share - (1.0 - 1e5 / pull)).abs() < 0.1);
     }
 }

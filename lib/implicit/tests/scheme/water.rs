@@ -1,4 +1,4 @@
-//! Loss of water from a column in a slit and from a film: nothing of it is lost.
+//! Loss of water to the walls of a slit and of a film: water is conserved.
 
 use implicit::Implicit;
 use physics::{Motion, Scene, Scheme, VoxelBlock, Water, WaterLaw};
@@ -76,7 +76,7 @@ fn a_slit_that_dries_keeps_its_water() {
         assert!(water.missing.abs() < 1e-12, "{}", water.missing);
         assert!(water.solids > solids - 1e-12, "{} {solids}", water.solids);
         solids = water.solids;
-        // What the liquid loses is in the walls, and missing from the liquid.
+        // The water that the liquid loses is in the walls.
         let apart = (water.given_off_m3 - water.in_walls_m3).abs() / start;
         assert!(apart < 1e-12, "{apart}");
         let change = (found.volume + water.given_off_m3) / start - 1.0;

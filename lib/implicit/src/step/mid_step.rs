@@ -1,39 +1,39 @@
-//! The middle of a step: where the gap and the liquid are, and which pores are full.
+//! The middle of a step: height of the gap, position of the liquid, full pores (docs/methods.md sections 3.1 and 3.3).
 
 use std::time::Instant;
 
 use super::Implicit;
-use super::exchange::Exchange;
+use super::exchange::WaterExchange;
 use crate::clock::Stage;
 use crate::liquid::transport;
 use crate::system::{FULL, Flow, halves, masses};
 
-/// Part of what flows into voids that they may have no room for: steps of wood with many lumens stay below it and are solved
-/// once; results hardly depend on it up to 0.1.
-const OVERFILLED: f64 = 0.03;
+/// Accepted excess over the free volume of voids, as a share of all flow into voids. Steps in wood with many lumens stay
+/// below it and are solved once; results hardly depend on it up to 0.1.
+const MAX_OVERFILL: f64 = 0.03;
 
-/// The liquid in the middle of a step, and what all solutions have in common that begin there.
-pub(super) struct Middle {
+/// State in the middle of a step, shared by all solves from it.
+pub(super) struct MidStep {
     pub(super) dt: f64,
-    /// Closing speed that puts the rows there, cells/s, and the height of the gap at the end of the step by it, cells.
-    pub(super) closing: f64,
-    pub(super) end: f64,
-    /// Which pores are full at its start.
+    /// Closing speed that sets the gap's height, cells/s, and the height of the gap at the end of the step by it, cells.
+    pub(super) closing_speed: f64,
+    pub(super) end_height: f64,
+    /// Which pores are full at the start of the step, or count so.
     pub(super) full: Vec<bool>,
-    /// What pores are filled to.
+    /// Volume fraction of each pore.
     pub(super) fractions: Vec<f64>,
-    /// Liquid in the halves of each face, and its volume.
+    /// Liquid fraction of the two halves of each face, and the liquid volume of both.
     pub(super) halves: Vec<[f64; 2]>,
     pub(super) masses: Vec<f64>,
-    /// Factor of the viscosity by cure.
+    /// Factor on the viscosity by cure.
     pub(super) viscosity: f64,
-    /// Of a liquid that loses water: what it loses.
-    pub(super) lost: Option<Exchange>,
+    /// The water exchange, of a liquid that loses water.
+    pub(super) water_loss: Option<WaterExchange>,
 }
 
-impl Middle {
-    /// Whether more pores have a pressure than in `other`.
-    pub(super) fn meets_more(&self, other: &Self) -> bool {
+impl MidStep {
+    /// Whether some pore is full here that is not in `other`.
+    pub(super) fn has_more_full_pores(&self, other: &Self) -> bool {
         let both = self.fractions.iter().zip(&other.fractions);
         both.into_iter()
             .any(|(&here, &there)| here == 1.0 && there < 1.0)
@@ -41,9 +41,10 @@ impl Middle {
 }
 
 impl Implicit {
-    /// Puts the rows where they are in the middle of a step of `dt` (s), and the liquid: by a `flow`, or by the last and the speed
-    /// that the clamp is asked for. Voids that a `flow` would fill are full, as are pores that were so `before`, in another middle of the step.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> Middle {
+    /// Moves the rows and the liquid to the middle of a step of `dt` (s): by `flow`, or by the last step's flow and the
+    /// drive's speed. Voids that `flow` would fill count as full, as do pores that were full `before`, in an earlier
+    /// estimate of the middle.
+    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> MidStep {
         let asked = self.state.drive.speed / self.setup.units.cell_m;
         let closing = flow.map_or(asked, |flow| flow.speed);
         let mut full: Vec<bool> = (self.state.volumes.iter().enumerate())
@@ -60,11 +61,11 @@ impl Implicit {
         if let Some(flow) = flow {
             self.fill_voids(dt, end, &mut full, flow);
         }
-        let fractions = self.filled(dt, &full, flow);
+        let fractions = self.mid_fractions(dt, &full, flow);
         let begun = Instant::now();
         if closes {
             let channels = self.setup.channels(&self.mesh);
-            self.links.measure(&channels, &fractions);
+            self.couplings.measure(&channels, &fractions);
         }
         self.clock.add(Stage::Geometry, begun);
         let begun = Instant::now();
@@ -72,64 +73,71 @@ impl Implicit {
         let masses = masses(&self.mesh, &halves);
         self.clock.add(Stage::Assembly, begun);
         let cure = self.setup.liquid.cure.as_ref();
-        Middle {
+        MidStep {
             dt,
-            closing,
-            end,
+            closing_speed: closing,
+            end_height: end,
             full,
             fractions,
             halves,
             masses,
             viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
-            lost: None,
+            water_loss: None,
         }
     }
 
-    /// Finds what liquid loses in a `middle` that is solved.
-    pub(super) fn dry(&mut self, middle: &mut Middle) -> Result<(), String> {
+    /// Solves the water balance for a `middle` of the step.
+    pub(super) fn find_water_loss(&mut self, middle: &mut MidStep) -> Result<(), String> {
         let begun = Instant::now();
-        middle.lost = self.exchange(middle.dt, &middle.fractions)?;
-        if middle.lost.is_some() {
+        middle.water_loss = self.exchange(middle.dt, &middle.fractions)?;
+        if middle.water_loss.is_some() {
             self.clock.add(Stage::Water, begun);
         }
         Ok(())
     }
 
-    /// Counts as `full` the pores of each void, connected pores that are not, that the `flow` found for a step of `dt` (s) would fill:
-    /// their balance then takes in no more than there is room for at the gap's height `end`. The rest would have to leave again in
-    /// the steps after, at a pressure of its own. Returns that rest, over all that flows into voids. No flow but that of the step
-    /// itself says what fills: a void that is full by another may have to be sucked full.
+    /// Marks as `full` the pores of each void (connected pores that are not full) that `flow`, found for a step of `dt` (s),
+    /// would overfill. Their volume balance then admits no more than their free volume at the gap's height `end`; the excess
+    /// would have to leave in later steps, under a spurious pressure. Returns the excess over all flow into voids. `flow`
+    /// must be that of this step: a void marked full by another flow might have to be filled by suction.
     fn fill_voids(&self, dt: f64, end: f64, full: &mut [bool], flow: &Flow) -> f64 {
-        // Air that is closed off leaves no void to be filled.
+        // With air, voids are pockets with a pressure and do not overfill.
         if self.setup.gas.is_some() {
             return 0.0;
         }
         let (mesh, volumes) = (&self.mesh, &self.state.volumes);
         let mut found = full.to_vec();
-        let (mut rest, mut all) = (0.0, f64::MIN_POSITIVE);
+        let (mut excess, mut all) = (0.0, f64::MIN_POSITIVE);
         for first in 0..full.len() {
             if found[first] {
                 continue;
             }
             let void = mesh.connected(first, &|pore| !full[pore], &mut found);
-            let (mut inflow, mut room) = (0.0, 0.0);
+            let (mut inflow, mut free) = (0.0, 0.0);
             for pore in void.iter().map(|&pore| pore as usize) {
-                room += self.capacity(pore, end) - volumes[pore];
-                for way in mesh.ways(pore).filter(|way| full[way.beside]) {
-                    inflow -= way.sign() * mesh.area(way.face) * flow.velocity[way.face] * dt;
+                free += self.capacity(pore, end) - volumes[pore];
+                for neighbour in mesh
+                    .neighbours(pore)
+                    .filter(|neighbour| full[neighbour.pore])
+                {
+                    inflow -= neighbour.sign()
+                        * mesh.area(neighbour.face)
+                        * flow.velocity[neighbour.face]
+                        * dt;
                 }
             }
             all += inflow.max(0.0);
-            if inflow > room {
-                rest += inflow - room;
+            if inflow > free {
+                excess += inflow - free;
                 void.iter().for_each(|&pore| full[pore as usize] = true);
             }
         }
-        rest / all
+        excess / all
     }
 
-    /// What pores are filled to in the middle of a step of `dt` (s), those `full` at its start and others, by a `flow` or the last.
-    fn filled(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
+    /// Volume fractions in the middle of a step of `dt` (s), by `flow` or that of the last step. `full` says which pores are
+    /// full at the start.
+    fn mid_fractions(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
         let begun = Instant::now();
         let (state, mesh) = (&self.state, &self.mesh);
         let velocity = &flow.unwrap_or(&state.flow).velocity;
@@ -154,29 +162,29 @@ impl Implicit {
         0.5 * (self.height + self.end_height(dt, closing))
     }
 
-    /// The same at its end.
+    /// Height of the gap at the end of the step, cells.
     fn end_height(&self, dt: f64, closing: f64) -> f64 {
         (self.height - dt * closing).max(0.0)
     }
 
-    /// What each pore can hold now.
+    /// Volume of each pore at the mesh's current gap height; infinite for ghost cells.
     pub(super) fn capacities(&self) -> Vec<f64> {
         let height = self.mesh.rows().height;
         let pores = 0..self.mesh.pores.len();
         pores.map(|pore| self.capacity(pore, height)).collect()
     }
 
-    /// What a pore can hold at a height of the gap: without end beyond open sides.
+    /// Volume of a pore at a height of the gap; infinite for a ghost cell.
     fn capacity(&self, pore: usize, height: f64) -> f64 {
-        match self.mesh.is_beyond(self.mesh.cell(pore)) {
+        match self.mesh.is_ghost(self.mesh.cell(pore)) {
             true => f64::INFINITY,
             false => self.mesh.volume_at(pore, height),
         }
     }
 
-    /// Whether a flow that was solved in a `middle` brings into voids more than they have room for.
-    pub(super) fn overfills(&self, middle: &Middle, flow: &Flow) -> bool {
+    /// Whether a flow that was solved from `middle` overfills voids.
+    pub(super) fn overfills(&self, middle: &MidStep, flow: &Flow) -> bool {
         let end = self.end_height(middle.dt, flow.speed);
-        self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > OVERFILLED
+        self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > MAX_OVERFILL
     }
 }

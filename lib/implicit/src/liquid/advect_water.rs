@@ -1,14 +1,14 @@
-//! Water that goes with the liquid.
+//! Advection of the water that is dissolved in the liquid.
 
-use super::transport::{PASSES, ROUNDING};
+use super::transport::{MAX_SWEEPS, ROUNDING};
 use crate::geometry::Mesh;
 
-/// Moves the `water` in liquid `volumes` by the liquid that crossed each face. A pore passes on the part of water that it
-/// had, or, where it passes on more than it held, that with what came in.
-pub(super) fn carry(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64]) {
+/// Advects the `water` by the liquid `flux` of each face; `volumes` are those before. The flux has the water fraction of the
+/// donor before the step, or, if the donor passes on more than it held, the fraction mixed with its inflow.
+pub(super) fn advect_water(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64]) {
     let ends = |face: usize| {
         let f = mesh.faces[face];
-        let [low, high] = f.ends();
+        let [low, high] = f.pores();
         if flux[face] > 0.0 {
             (low, high)
         } else {
@@ -26,8 +26,8 @@ pub(super) fn carry(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64
     for &face in &moving {
         out[ends(face).0] += flux[face].abs();
     }
-    let through = |pore: usize| out[pore] > volumes[pore];
-    for _ in 0..PASSES {
+    let flows_through = |pore: usize| out[pore] > volumes[pore];
+    for _ in 0..MAX_SWEEPS {
         let mut sums: Vec<[f64; 2]> = (0..volumes.len())
             .map(|pore| [volumes[pore], water[pore]])
             .collect();
@@ -36,7 +36,7 @@ pub(super) fn carry(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64
             sums[to] = [sums[to][0] + passed, sums[to][1] + passed * parts[from]];
         }
         let mut change = 0.0_f64;
-        for pore in (0..volumes.len()).filter(|&pore| through(pore) && sums[pore][0] > 0.0) {
+        for pore in (0..volumes.len()).filter(|&pore| flows_through(pore) && sums[pore][0] > 0.0) {
             let part = (sums[pore][1] / sums[pore][0]).clamp(0.0, 1.0);
             change = change.max((part - parts[pore]).abs());
             parts[pore] = part;

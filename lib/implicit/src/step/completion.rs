@@ -1,27 +1,27 @@
-//! Completion of an accepted step: liquid that has moved, a gap that has closed, the step's report.
+//! Completion of an accepted step: advects the liquid, closes the gap, moves the bodies and reports.
 
 use std::time::Instant;
 
 use physics::{Motion, StepLimit, StepReport};
 
 use super::Implicit;
-use super::exchange::Exchange;
+use super::exchange::WaterExchange;
 use super::solve::Solved;
 use crate::clock::Stage;
 use crate::liquid::{Moved, TRACE, transport};
 use crate::settings::LARGEST_CFL;
 use crate::system::Flow;
 
-/// Most by which flow is expected to go on growing: without, steps of a flow that grows are solved twice; a flow that starts is no
-/// trend.
-const FORESEEN: f64 = 1.25;
-/// Fraction of the faces, the fastest, that the Courant number ignores: of more, liquid goes astray; of none, jets through holes of a
-/// voxel set the step.
-const JETS: f64 = 1e-3;
+/// Bound on the extrapolated growth of the flow speed from step to step. Without extrapolation every step of an accelerating
+/// flow would be repeated; the growth of a flow that starts is no trend.
+const MAX_FORESEEN_GROWTH: f64 = 1.25;
+/// Fraction of the faces, the fastest ones, that the Courant number ignores. A larger one misplaces liquid; with none, jets
+/// through holes of one voxel would set the step length.
+const IGNORED_FACES: f64 = 1e-3;
 
 impl Implicit {
-    /// Completes an accepted step.
-    pub(super) fn follow(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
+    /// Completes an accepted step and returns its report.
+    pub(super) fn complete_step(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
         let Solved {
             dt,
             flow,
@@ -29,21 +29,22 @@ impl Implicit {
             forces,
             settled,
             air,
-            arrives,
+            ends_travel,
             exchange,
         } = solved;
         let cell_m = self.setup.units.cell_m;
-        let travel = match arrives {
-            true => self.left(limit),
+        let travel = match ends_travel {
+            true => self.travel_left(limit),
             false => flow.speed * dt,
         };
         self.move_liquid(travel, &flow.velocity, &full, exchange, dt);
         let state = &mut self.state;
-        let fastest = fastest(&flow, self.setup.settings.cfl);
-        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
-        state.fastest = fastest;
+        let courant_speed = courant_speed(&flow, self.setup.settings.cfl);
+        state.growth = (courant_speed / state.courant_speed.max(f64::MIN_POSITIVE))
+            .clamp(1.0, MAX_FORESEEN_GROWTH);
+        state.courant_speed = courant_speed;
         state.unsettled += u64::from(!settled);
-        state.power = flow.dissipation;
+        state.dissipation = flow.dissipation;
         state.time += dt;
         state.dt = dt;
         state.steps += 1;
@@ -52,7 +53,7 @@ impl Implicit {
         let pressure = |body: Option<usize>, sign: f64| {
             body.map_or(0.0, |body| {
                 let force = match self.setup.lattice.is_moving(body) {
-                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
+                    true => -sign * self.setup.lattice.body_speed(body) * flow.force,
                     false => sign * forces[body],
                 };
                 self.setup.pressure(force)
@@ -71,27 +72,27 @@ impl Implicit {
         };
         self.state.flow = flow;
         if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
-            self.keep_air(gas, air, settled, dt);
+            self.store_air(gas, air, settled, dt);
         }
-        // A state has no row without height.
+        // Between steps no row has zero height.
         if self.setup.lattice.moving.is_some() && self.height == 0.0 {
-            self.fit_mesh();
+            self.update_mesh();
         }
         report
     }
 
-    /// Closes the gap by a `travel` (cells) and moves the liquid by the `velocity` of each face in a step of `dt` (s): from pores
-    /// that were `full` or not, less what it loses.
+    /// Closes the gap by `travel` (cells), moves the water of `exchange`, and advects the liquid by the face `velocity` over
+    /// a step of `dt` (s). `full` says which pores were full.
     fn move_liquid(
         &mut self,
         travel: f64,
         velocity: &[f64],
         full: &[bool],
-        exchange: Option<Exchange>,
+        exchange: Option<WaterExchange>,
         dt: f64,
     ) {
         let begun = Instant::now();
-        // Liquid moves through the faces of the middle of the step into the pores of its end.
+        // Liquid moves through faces as they are in the middle of the step, into pore volumes as they are at its end.
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
             let height = self.height - travel;
@@ -101,8 +102,8 @@ impl Implicit {
         let capacities = self.capacities();
         self.mesh.set_height(middle);
         let state = &mut self.state;
-        if let (Some(wet), Some(exchange)) = (&mut state.wet, exchange) {
-            wet.give_off(&exchange, dt, &mut state.volumes);
+        if let (Some(balance), Some(exchange)) = (&mut state.water, exchange) {
+            balance.give_off(&exchange, dt, &mut state.volumes);
         }
         let mesh = &mut self.mesh;
         let Moved {
@@ -113,7 +114,7 @@ impl Implicit {
             mesh,
             [
                 &state.volumes,
-                state.wet.as_ref().map_or(&[], |wet| &wet.water),
+                state.water.as_ref().map_or(&[], |balance| &balance.water),
             ],
             full,
             &capacities,
@@ -123,14 +124,14 @@ impl Implicit {
         mesh.set_height(self.height);
         self.clock.add(Stage::Transport, begun);
         state.volumes = volumes;
-        if let Some(wet) = &mut state.wet {
-            wet.water = water;
-            wet.left += water_lost;
+        if let Some(balance) = &mut state.water {
+            balance.water = water;
+            balance.left += water_lost;
         }
         state.lost += lost;
     }
 
-    /// Moves the bodies by a `travel` of the clamp (cells) and by what slides in a step of `dt` (s).
+    /// Moves the bodies: by the clamp's `travel` (cells), and sliding walls by their velocity over a step of `dt` (s).
     fn move_bodies(&mut self, travel: f64, dt: f64) {
         let (lattice, cell_m) = (&self.setup.lattice, self.setup.units.cell_m);
         for (body, displacement) in self.state.displacement.iter_mut().enumerate() {
@@ -142,14 +143,15 @@ impl Implicit {
                 displacement[a] += slide[a] * dt;
             }
             if lattice.is_moving(body) {
-                displacement[1] += lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
+                displacement[1] += lattice.body_speed(body) * travel * cell_m - slide[1] * dt;
             }
         }
     }
 }
 
-/// Cells a second that count: those of the fastest faces but for jets through single voxels, which may cross more.
-pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
+/// Flow speed for the Courant number, cells/s: that of the fastest faces but for the ignored ones, which may reach
+/// [`LARGEST_CFL`] cells a step.
+pub(super) fn courant_speed(flow: &Flow, cfl: f64) -> f64 {
     let mut speeds: Vec<f64> = (flow.velocity.iter())
         .filter(|v| **v != 0.0)
         .map(|v| v.abs())
@@ -157,7 +159,7 @@ pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
     if speeds.is_empty() {
         return 0.0;
     }
-    let at = ((1.0 - JETS) * (speeds.len() - 1) as f64) as usize;
+    let at = ((1.0 - IGNORED_FACES) * (speeds.len() - 1) as f64) as usize;
     let most = speeds.iter().fold(0.0, |most: f64, &v| v.max(most));
     let (_, &mut counted, _) = speeds.select_nth_unstable_by(at, f64::total_cmp);
     counted.max(most * cfl / LARGEST_CFL)
