@@ -87,7 +87,8 @@ pub(crate) enum Figure {
         /// for --show filled, tables of its --profile
         #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
         files: Vec<Labelled>,
-        /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
+        /// Weighted penetration and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open
+        /// lumens by depth
         #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of::<Shown>())]
         show: Shown,
         #[command(flatten)]
@@ -124,8 +125,8 @@ pub(crate) enum Figure {
         /// Column of the result to draw
         #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
         result: String,
-        /// Error by cell size of that result, in per cent [default: for WP and pressure the largest of
-        /// the bonds of make, none for others]
+        /// Error by cell size of that result, in per cent [default: for weighted penetration and pressure the
+        /// largest of the bonds of make, none for others]
         #[arg(long, value_name = "PERCENT", value_parser = share)]
         error: Option<f64>,
         #[command(flatten)]
