@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
 
 #[derive(Subcommand)]
 pub(crate) enum Figure {
-    /// Clamping pressure and closing speed against time (Figs. 5 and 6), stages of press programmes marked
+    /// Clamping pressure and closing speed against time, with the stages of a press programme (Figs. 5 and 6)
     #[command(after_help = "Examples:
   bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
   bond-figures pressure --run out/pf-xpic --limit \"2.5 MPa\" --title PF -o pf.svg -o pf.png
@@ -39,12 +39,12 @@ pub(crate) enum Figure {
         /// A run: its folder or its history.csv; may be repeated
         #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
         run: Vec<Labelled>,
-        /// The same run, by its LABEL, in cells half as large. A band is drawn over the pressures of both at equal travel of
-        /// their clamps and up to those beyond the finer run by twice the difference, cut at zero and at the limit; Table 2 has
-        /// the pressures of both last steps instead, which are not at quite the same travel; may be repeated
+        /// The run of the same LABEL in cells half as large; may be repeated. A band is drawn at equal travel of the
+        /// clamps: from the coarser run's pressure over the finer one's to twice their difference beyond that, cut at
+        /// zero and at the limit. (Table 2 compares the last steps, whose travels differ a little)
         #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
         finer: Vec<Labelled>,
-        /// Draw this pressure as a dashed line; without it, the limit that the cases of all runs have
+        /// Draw this pressure as a dashed line [default: the pressure limit, if that of all runs]
         #[arg(long, value_name = "PRESSURE", value_parser = units::positive::<Pressure>)]
         limit: Option<f64>,
         /// Title above the figure
@@ -87,13 +87,14 @@ pub(crate) enum Figure {
         /// for --show filled, tables of its --profile
         #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
         files: Vec<Labelled>,
-        /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
+        /// Weighted penetration and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open
+        /// lumens by depth
         #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of::<Shown>())]
         show: Shown,
         #[command(flatten)]
         picture: Picture,
     },
-    /// Sizes of pores and lumens: the share of the open volume up to each diameter
+    /// Pore sizes: the share of the open volume up to each diameter
     #[command(after_help = "Examples:
   wp-metrics birch.tif --pores -o pores.csv && bond-figures pores birch=pores.csv -o pores.svg
   bond-figures pores beech=beech.csv birch=birch.csv -o species.png
@@ -112,7 +113,7 @@ pub(crate) enum Figure {
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
   bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
     Slice(SliceArgs),
-    /// A result of a sweep with its error, and pressure and time, against each parameter
+    /// A result of a sweep with its error, pressure and pressing time, against each parameter
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
   bond-figures response sweep.csv --result wp_top_um --error 8% -o ep.png
@@ -124,14 +125,14 @@ pub(crate) enum Figure {
         /// Column of the result to draw
         #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
         result: String,
-        /// Its error by the size of the cells, as a percentage [default: the worst of the bonds of
-        /// make for WP and pressure, none for others]
+        /// Error by cell size of that result, in per cent [default: for weighted penetration and pressure the
+        /// largest of the bonds of make, none for others]
         #[arg(long, value_name = "PERCENT", value_parser = share)]
         error: Option<f64>,
         #[command(flatten)]
         picture: Picture,
     },
-    /// How a run is set up: stack, slice, adherends parted, slab put in (Fig. 2)
+    /// Set-up of a run: stack, slice, adherends apart, slab between them (Fig. 2)
     #[command(after_help = "Examples:
   bond-figures setup experiment.mpts bond.mpts -o setup.svg
   bond-figures setup experiment.mpts bond.mpts --width \"174 mm\" -o setup.pdf
@@ -140,7 +141,7 @@ pub(crate) enum Figure {
         /// Particle file of the specimen
         #[arg(value_name = "SPECIMEN", value_parser = given(labelled))]
         specimen: Labelled,
-        /// Particle file of the bond that was made of it
+        /// Particle file of the bond made from it
         #[arg(value_name = "BOND", value_parser = given(labelled))]
         bond: Labelled,
         #[command(flatten)]
@@ -160,7 +161,7 @@ pub(crate) enum Figure {
         #[command(flatten)]
         picture: Picture,
     },
-    /// The states of a run in three dimensions as an animated PNG, which browsers play
+    /// States of a run in three dimensions as an animated PNG, which browsers play
     #[command(after_help = "Examples:
   bond-figures movie out/pf-implicit -o press.png
   bond-figures movie PF=out/pf-implicit --wood hidden --rate 10 -o press.png
@@ -184,15 +185,14 @@ pub(crate) struct SliceArgs {
     /// Axis that the slice is normal to: x, y or z
     #[arg(long, value_name = "AXIS", default_value = "z")]
     pub(crate) normal: Axis,
-    /// Where along that axis: a length, or a percentage of the box
+    /// Position along that axis: a length, or a percentage of the box
     #[arg(long, value_name = "LEN|PERCENT", default_value = "50%", allow_hyphen_values = true,
           value_parser = position)]
     pub(crate) at: Position,
     /// Colour the adhesive: plain, or by its pressure
     #[arg(long, default_value = "plain", value_parser = one_of::<Colouring>())]
     pub(crate) colour: Colouring,
-    /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
-    /// or voxels
+    /// Part of the slice to draw: its range to the right, then its range upwards, as lengths or voxels
     #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
     pub(crate) part: Option<[[Extent; 2]; 2]>,
     /// Draw the grid of a run in cells of this size (Fig. 3), a length or voxels
@@ -204,7 +204,7 @@ pub(crate) struct SliceArgs {
 
 #[derive(Args)]
 pub(crate) struct MovieArgs {
-    /// The folder of a run: its snapshots, and its last state
+    /// Run folder; frames are its snapshots and its last state
     #[arg(value_name = "[LABEL=]RUNDIR", value_parser = given(labelled))]
     pub(crate) run: Labelled,
     /// Animated PNG to write; `-` is standard output
@@ -228,11 +228,11 @@ pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of a run's final state; may be repeated
     #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = given(run))]
     pub(crate) run: Vec<Case>,
-    /// Write errors (needs tables of `wp-metrics --finer`): WP, EP and pressure extrapolated to zero
-    /// cell size, and how far the other runs are from them
+    /// Write WP, EP and pressure extrapolated to zero cell size with their errors (from tables of
+    /// `wp-metrics --finer`), and the difference of the other runs from them
     #[arg(long, value_name = "CSV")]
     pub(crate) errors: Option<Output>,
-    /// Show the paper's numbers, which are of another specimen, below ours
+    /// Show the paper's numbers, which are of another specimen, below the table
     #[arg(long)]
     pub(crate) paper: bool,
     /// The table as a picture, .svg, .png or .pdf; may be repeated

@@ -17,8 +17,8 @@ pub(crate) struct Picture {
 /// What a picture is printed on.
 #[derive(Args)]
 pub(crate) struct Print {
-    /// Printed width, e.g. "84 mm": the figure fits itself to it with text of 7 and 8 points;
-    /// without it, as wide as it likes
+    /// Printed width, e.g. "84 mm", at which text has 7 and 8 points
+    /// [default: by the content, about 170 mm]
     #[arg(long, value_name = "LEN", value_parser = width)]
     width: Option<f64>,
     /// Pixels per inch of a PNG, 30 to 1200
@@ -38,14 +38,14 @@ impl Print {
 /// What is seen of a state, and from where.
 #[derive(Args)]
 pub(crate) struct Look {
-    /// How much of the wood is shown: none, the half away from the viewer, or all
+    /// Wood that is shown: none (hidden), the half away from the viewer (cut), or all (whole)
     #[arg(long, default_value = "cut", value_parser = one_of::<Wood>())]
     pub(crate) wood: Wood,
-    /// Degrees to look from beside the front, about the axis across the bond
+    /// Angle of view to the side of the front, in degrees about the axis across the bond
     #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().turn, allow_hyphen_values = true,
           value_parser = |text: &str| degrees(text, [-360.0, 360.0]))]
     pub(crate) turn: f64,
-    /// Degrees to look from above the bond plane
+    /// Angle of view above the bond plane, in degrees
     #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().tilt, allow_hyphen_values = true,
           value_parser = |text: &str| degrees(text, [-90.0, 90.0]))]
     pub(crate) tilt: f64,

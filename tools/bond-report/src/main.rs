@@ -17,10 +17,10 @@ use report::{Error, Labelled, Report, RunFolder, measured, picture, scene, table
   bond-report --run PF=runs/pf --picture \"Pressure=pressure.svg\" --table \"Table 2=table2.csv\" -o pf.html
   bond-report --title \"PF, 2.5 MPa\" --run PF=runs/pf --state PF=runs/pf/final.mpts -o pf.html
 
-The page begins with a summary: what was pressed, WP by side, with its error if the run folder holds a wp.csv of \
-wp-metrics --finer, whether the press closed, the first two pictures, and what to doubt. Then tables with rounded numbers, the other \
-pictures, states in 3D (the middle of those of more than 700 000 voxels), and for each run its parameters, the error to \
-expect, what was left out, cost and provenance.
+The page begins with a summary: specimen, adhesive and press; weighted penetration by side, with its error if the run folder \
+has a wp.csv of wp-metrics --finer; whether the bond closed; the first two pictures; caveats. Then come tables with rounded \
+numbers, the other pictures, states in 3D (only the middle of states of more than 700 000 voxels), and for each run its \
+parameters, expected error, effects left out, cost and provenance.
 
 Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt data."
 )]
@@ -35,7 +35,7 @@ struct Arguments {
     /// A run folder; may be repeated
     #[arg(long, value_name = "[LABEL=]RUNDIR", value_parser = labelled())]
     run: Vec<Labelled>,
-    /// The CSV of wp-metrics of a measured specimen, for a row above the runs; may be repeated
+    /// CSV of wp-metrics of a measured specimen, shown above the runs; may be repeated
     #[arg(long, value_name = "[LABEL=]CSV", value_parser = labelled())]
     experiment: Vec<Labelled>,
     /// A CSV table, of at most 1000 rows; may be repeated
@@ -44,7 +44,7 @@ struct Arguments {
     /// An SVG or PNG picture; may be repeated
     #[arg(long, value_name = "[CAPTION=]FILE", value_parser = labelled())]
     picture: Vec<Labelled>,
-    /// A specimen, bond or state to be shown in 3D; may be repeated
+    /// A specimen, bond or state to show in 3D; may be repeated
     #[arg(long, value_name = "[LABEL=]FILE", value_parser = labelled())]
     state: Vec<Labelled>,
     /// Page to write; `-` is standard output

@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use cli::{Failure, Output};
 
-/// Run a table of parameters, a row a run, and collect one table of results
+/// Run a table of parameters, one run per row, and collect one table of results
 #[derive(Parser)]
 #[command(
     version,
@@ -24,10 +24,11 @@ use cli::{Failure, Output};
   xargs -P 8 -n 1 bond-sweep run --threads 1 sweep < sweep/runs.txt
   bond-sweep collect sweep -o results.csv
 
-A column of the table is a key of the case (adhesive.viscosity, clamp.max_pressure ...), or case \
-(a case file), particles (a bond file) or specimen.adhesive, .size, .slab, .voxel, .seed (a \
-synthetic one; by default the quick one of make). Paths are seen from the table; a case without \
-an ending stands beside the one of --case. An empty cell is the case's own value.
+A column of the table is a key of the case (adhesive.viscosity, clamp.max_pressure ...); case (a \
+case file); particles (a bond file); or specimen.adhesive, .size, .slab, .voxel, .grain_angle, \
+.seed (a synthetic specimen, by default the quick one of make). Paths start from the table's \
+folder; a case without an ending is a file beside that of --case. An empty cell stands for the \
+value of the case file.
 
 Exit status: 0 ok; 1 cannot write; 2 usage, table or case; 3 unreadable or corrupt data; 75 \
 stopped early or not all runs ended: start the same command again."
@@ -49,7 +50,7 @@ enum Step {
     Plan {
         /// Table of the runs (CSV)
         table: PathBuf,
-        /// Case file of the rows that name none
+        /// Case file of rows without a case of their own
         #[arg(long, value_name = "CASE.toml")]
         case: PathBuf,
         /// Folder of the sweep
@@ -59,7 +60,7 @@ enum Step {
         #[arg(long)]
         yes_really: bool,
     },
-    /// Run one of the planned runs, or continue it, and measure its end
+    /// Start or continue one of the planned runs, and measure its last state
     #[command(after_help = "Examples:
   bond-sweep run sweep 03f2a1b4c5d6e7f8
   parallel --joblog sweep/jobs bond-sweep run --threads 1 sweep {} < sweep/runs.txt
@@ -67,7 +68,7 @@ enum Step {
     Run {
         /// Folder of the sweep
         folder: PathBuf,
-        /// Which run: a line of its runs.txt
+        /// Name of the run: a line of the folder's runs.txt
         run: String,
     },
     /// Put the results of all rows into one table
@@ -81,7 +82,7 @@ enum Step {
         /// CSV to write; `-` is standard output
         #[arg(short, long, value_name = "CSV")]
         output: Output,
-        /// Write the time and memory that each run took; they differ each time
+        /// Write time and memory of each run, which differ from one execution to the next
         #[arg(long, value_name = "CSV")]
         cost: Option<Output>,
     },

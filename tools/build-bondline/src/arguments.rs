@@ -6,10 +6,10 @@ use clap::{Args, Parser};
 use cli::{Failure, Output};
 use units::{Axis, Density, Length, Spread, positive};
 
-/// Take the adhesive out of a specimen, part its adherends and put a slab between them; or lay up undamaged wood around a slab
+/// Replace the adhesive of a specimen by a slab between its adherends, moved apart; or lay up undamaged wood around a slab
 ///
-/// Undamaged wood is one piece cut at --plane, or --bottom and --top, with the adhesive given by
-/// --slab or --spread. The high side of the bottom piece is glued to the low side of the top one.
+/// Undamaged wood is one piece cut at --plane, or two pieces, --bottom and --top; --slab or --spread gives the adhesive.
+/// The high side of the bottom piece is glued to the low side of the top piece.
 #[derive(Parser)]
 #[command(
     version,
@@ -21,7 +21,7 @@ use units::{Axis, Density, Length, Spread, positive};
   build-bondline wood.mpts --plane 139.2um --turn-top 90 --spread '60 g/m2' --density '1.2 g/cm3' -o plywood.mpts"
 )]
 pub(crate) struct Arguments {
-    /// Particle file with wood and adhesive, as xct2particles writes, or with wood alone to be cut
+    /// Particle file of xct2particles with wood and adhesive, or with undamaged wood to cut
     /// at --plane; `-` is standard input
     #[arg(required_unless_present = "bottom", conflicts_with_all = ["bottom", "top"])]
     pub(crate) specimen: Option<PathBuf>,
@@ -31,14 +31,14 @@ pub(crate) struct Arguments {
     /// Axis across the bond: x, y or z [default: the specimen's, usually y]
     #[arg(long, value_name = "AXIS")]
     pub(crate) normal: Option<Axis>,
-    /// Where to split the wood: auto, or a length from the low face of the stack
+    /// Plane at which the wood is split: auto, or a length from the low face of the stack
     #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
     pub(crate) plane: AutoOr,
-    /// Voxels along the edge of a grid cell: the slab is a whole number of cells thick
+    /// Voxels along the edge of a grid cell; the slab is a whole number of cells thick
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=64))]
     pub(crate) voxels_per_cell: u16,
-    /// How far to move the top adherend: auto (just enough for the slab) or a length, from its place
-    /// in the specimen or, for undamaged wood, from where the pieces touch
+    /// Displacement of the top adherend: auto (just enough for the slab) or a length, from its place
+    /// in the specimen or, for undamaged wood, from contact of the pieces
     #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
     pub(crate) gap: AutoOr,
     /// Largest accepted change of the adhesive volume by rounding
@@ -54,16 +54,16 @@ pub(crate) struct Arguments {
 #[derive(Args)]
 #[command(next_help_heading = "Undamaged wood")]
 pub(crate) struct Wood {
-    /// Specimen of wood alone whose high side is glued; `-` is standard input
+    /// Undamaged wood whose high side is glued; `-` is standard input
     #[arg(long, value_name = "SPECIMEN", requires = "top")]
     pub(crate) bottom: Option<PathBuf>,
-    /// Specimen of wood alone whose low side is glued; `-` is standard input
+    /// Undamaged wood whose low side is glued; `-` is standard input
     #[arg(long, value_name = "SPECIMEN", requires = "bottom")]
     pub(crate) top: Option<PathBuf>,
     /// Adhesive as the thickness of its slab
     #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = positive::<Length>, conflicts_with = "spread")]
     pub(crate) slab: Option<f64>,
-    /// Adhesive as mass over bond area of one bond line
+    /// Adhesive as mass per area of one bond line
     #[arg(long, value_name = "MASS/AREA", allow_hyphen_values = true, value_parser = positive::<Spread>, requires = "density")]
     pub(crate) spread: Option<f64>,
     /// Density of the adhesive that is spread
@@ -72,10 +72,10 @@ pub(crate) struct Wood {
     /// Turn the top piece about the bond normal, right-handed, in degrees; 90 is plywood
     #[arg(long, value_name = "DEGREES", value_parser = ["0", "90", "180", "270"])]
     pub(crate) turn_top: Option<String>,
-    /// Crop pieces of unequal width to what they share, from their low corners
+    /// Crop pieces of unequal width, from their low corners, to the common size
     #[arg(long)]
     pub(crate) crop_to_fit: bool,
-    /// Leave out loose wood in front of a glued face
+    /// Remove loose pieces of wood in front of a glued face
     #[arg(long)]
     pub(crate) drop_islands: bool,
 }

@@ -24,19 +24,19 @@ const VERSION: &str = if cfg!(feature = "double") {
   mpm-run --reference
   mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
 
-The run folder is marked by bondline-run.toml and held while a run is on. Written in it: \
+The run folder is marked by bondline-run.toml and locked during a run. A run writes \
 resolved.toml, history.csv, snapshots/NNNN.mpts, checkpoint.mpts, summary.json and, last, \
-final.mpts. No other file is replaced, nor one of yours under these names: that is refused.
+final.mpts. It replaces no other file, and no particle file of yours under these names (exit 2).
 
-Keys of the explicit scheme that are not the paper's, off unless given \
+Options of the explicit scheme beyond the paper's, off unless given \
 (docs/results/explicit-options.md):
   integrator.pressure = \"cell-mean\"            pressure from the mean of a cell
-  integrator.density_projection = \"0.04 cell\"  points evened out after each 0.04 cell of motion
+  integrator.density_projection = \"0.04 cell\"  uniform density restored every 0.04 cell of motion
   contact.separation = \"0.8 cell\"              distance at which liquid and wall touch
 
-Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); \
+Exit status: 0 the results are sound; 1 the run failed (unstable, not sound, cannot write); \
 2 usage or case file; 3 unreadable or corrupt data; 75 stopped early (SIGINT, SIGTERM, \
-SIGUSR1, SIGUSR2, SIGXCPU, or SIGHUP unless begun by nohup), continue with --resume."
+SIGUSR1, SIGUSR2, SIGXCPU, or SIGHUP without nohup), continue with --resume."
 )]
 struct Arguments {
     /// Case file (TOML)
@@ -46,7 +46,7 @@ struct Arguments {
     /// tables describe the scene
     #[arg(long, value_name = "BOND")]
     particles: Option<PathBuf>,
-    /// Run folder, made or marked as one (bondline-run.toml)
+    /// Run folder, a new folder or one with bondline-run.toml
     #[arg(
         short,
         long,
@@ -57,7 +57,7 @@ struct Arguments {
     /// Change a key of the case, e.g. --set grid.cell="1.45 um" --set integrator.cfl=0.25
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Print the plan and what this scene leaves out, and run nothing
+    /// Print the plan, the expected error and the effects left out, and run nothing
     #[arg(long)]
     explain: bool,
     /// Print every table and key of a case file: unit, default, when to change it (Markdown)
@@ -66,12 +66,12 @@ struct Arguments {
     /// Run even if the forecast exceeds 1e9 steps, a week or the available memory
     #[arg(long)]
     yes_really: bool,
-    /// Continue from the last checkpoint in the run folder: start if there is none, do nothing if the run
-    /// has ended; of the case only integrator.cfl may have changed
+    /// Continue from the last checkpoint in the run folder; start if there is none, do nothing if the run
+    /// has ended. Only integrator.cfl may differ from the case of that run
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
-    /// Replace the files of another run in the run folder, and no others; with --resume this same
-    /// run is continued, or left alone if it has ended
+    /// Replace the files of another run in the run folder, and no others; with --resume, continue the
+    /// same run, or keep it if it has ended
     #[arg(long, conflicts_with = "explain")]
     overwrite: bool,
     #[command(flatten)]

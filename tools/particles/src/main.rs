@@ -33,16 +33,16 @@ struct Arguments {
 enum Command {
     /// Print what a file holds and how it was made
     Info(Files),
-    /// Read a whole file: every array agrees with its checksum, every number is finite
+    /// Check a whole file: checksums of all arrays, finite numbers
     Check(Files),
     /// Print a checksum of the material points that does not depend on their order
     Sum(Files),
     /// Write the content as csv, npz, vtp, vti, pvd or labelled tiff
     ///
-    /// csv and vtp hold the liquid points or, where a file has none, its adhesive voxels.
-    /// vti and tiff hold labels: void 0, wood 128, adhesive 255; as many voxels outside wood are
-    /// adhesive as the liquid's volume makes, the fullest first. npz holds everything. pvd is a
-    /// series for ParaView, with the files it refers to in the folder NAME.parts beside it, where
+    /// csv and vtp hold the liquid points or, in a file without any, its adhesive voxels.
+    /// vti and tiff hold labels: void 0, wood 128, adhesive 255; the fullest voxels outside wood are
+    /// adhesive, as many as the volume of the liquid fills. npz holds everything. pvd is a
+    /// series for ParaView, with its data in the folder NAME.parts beside it, where
     /// only files of an earlier series are replaced.
     Export(export::Arguments),
 }

@@ -27,11 +27,11 @@ struct Arguments {
     /// Convert to 2|dev D| (paper) or sqrt(2 D:D) (rheometer) [default: as stored]
     #[arg(long, value_name = "paper|rheometer")]
     convention: Option<Convention>,
-    /// Print the shear rate at the wall of a tube, 8 v / d (Eq. 7), in both conventions; on
-    /// standard error where a table is written too
+    /// Print the shear rate at the wall of a tube, 8 v / d (Eq. 7), in both conventions (on
+    /// standard error if a table is written too)
     #[arg(long, value_name = "SPEED,DIAMETER", value_parser = tube)]
     tube: Option<[f64; 2]>,
-    /// Where the table goes; `-` is standard output
+    /// Table to write; `-` is standard output
     #[arg(short, long, value_name = "CSV", default_value = "-")]
     output: Output,
     #[command(flatten)]

@@ -8,11 +8,11 @@ use synthetic_wood::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Spec
 use units::{Angle, Length, positive};
 use voxels::{Dims, TiffWriter};
 
-/// Grow a synthetic hybrid poplar specimen with a bond line, or undamaged wood of one of four species, as an 8-bit label stack
+/// Generate a synthetic hybrid poplar specimen with a bond line, or undamaged wood of one of four species, as an 8-bit label stack
 ///
-/// Labels: 0 void, 128 wood, 255 adhesive. The fibres run nearly along z, the bond normal is
-/// y; undamaged wood is cut as a peeled veneer is, its rays nearly along y. Wood and adhesive are synthetic; the adhesive is placed by distance and connectivity
-/// and not by a flow simulation. The same arguments give the same bytes.
+/// Labels: 0 void, 128 wood, 255 adhesive. Fibres run nearly along z, the bond normal is y. Undamaged wood is cut like a
+/// peeled veneer, with rays nearly along y. The adhesive is placed by distance and connectivity, not by a flow simulation.
+/// The same arguments give the same bytes.
 #[derive(Parser)]
 #[command(
     version,
@@ -23,8 +23,8 @@ use voxels::{Dims, TiffWriter};
   synth-xct --adhesive pf --size 393x393x400 --seed 1 -o full.tif && xct2particles full.tif -o full.mpts"
 )]
 struct Arguments {
-    /// Adhesive: sets the slab (PF 55.1 um, PVA-PF 78.3 um); large PF boxes hold an isolated tube.
-    /// none is one piece of undamaged wood
+    /// Adhesive, which gives the default slab (PF 55.1 um, PVA-PF 78.3 um); none is one piece of undamaged wood. Large PF
+    /// boxes have adhesive in an isolated tube
     #[arg(long, value_parser = ["pf", "pva-pf", "none"])]
     adhesive: String,
     /// Wood species; only hybrid poplar can have adhesive
@@ -36,13 +36,13 @@ struct Arguments {
     /// Voxel edge
     #[arg(long, value_name = "LEN", default_value = "1.45 um", allow_hyphen_values = true, value_parser = positive::<Length>)]
     voxel: f64,
-    /// Adhesive volume over bond area [default: the paper's, at most a sixth of the height]
+    /// Thickness of the slab, adhesive volume over bond area [default: the paper's, at most a sixth of the height]
     #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = positive::<Length>)]
     slab: Option<f64>,
     /// Angle of the fibres against the bond plane, 0 to 30 deg [default: drawn from 3 to 6 deg for each adherend]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = units::si::<Angle>)]
     grain_angle: Option<f64>,
-    /// Grow it even if the forecast exceeds the available memory
+    /// Generate it even if the forecast exceeds the available memory
     #[arg(long)]
     yes_really: bool,
     /// Seed of all random choices

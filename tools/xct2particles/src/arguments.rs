@@ -10,9 +10,9 @@ use voxels::{Crop, Dims, GreyLevels, Labels, RawType};
 
 /// Turn a stack of XCT label images into a particle file
 ///
-/// Every voxel of wood or adhesive becomes one material point. Labels are the stored sample values,
-/// whatever colours an image program shows; the colours, where pages show one value in
-/// several. Pages are z, rows y, columns x.
+/// Every voxel of wood or adhesive becomes one material point. Labels are the stored sample values, whatever colours an
+/// image program shows. Where pages give one value different colours, the colours are the labels. Pages are z, rows y,
+/// columns x.
 #[derive(Parser)]
 #[command(
     version,
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// TIFF, BMP, PNG or JPEG slices, or several slices; `-` is standard input
     #[arg(required = true, value_name = "STACK")]
     pub(crate) stack: Vec<PathBuf>,
-    /// Voxel edge [default: what the stack's metadata state]
+    /// Voxel edge [default: from the stack's metadata]
     #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = units::positive::<Length>)]
     pub(crate) voxel: Option<f64>,
     /// Size of a raw volume, x fastest
@@ -39,32 +39,30 @@ pub(crate) struct Arguments {
     /// Number type of a raw volume: u8, i16, f32 ..., little-endian; big-endian as u16be
     #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
     pub(crate) kind: Option<RawType>,
-    /// Labels of each phase; several as 1|2|7, colours as R:G:B; wood alone has no adhesive
-    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or, for wood alone,
-    /// the first two of either]
+    /// Labels of each phase; several as 1|2|7, colours as R:G:B; without adhesive for undamaged wood
+    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or, for undamaged wood, 0, 1 or 0, 128]
     #[arg(long, value_name = "void=L,wood=L,adhesive=L", conflicts_with = "grey")]
     pub(crate) labels: Option<Labels>,
-    /// Grey values of wood and adhesive, both ends included, for a stack without labels; wood alone
-    /// has no adhesive. auto proposes them (Otsu's two thresholds) for wood darker than adhesive,
-    /// auto-wood for wood alone (one threshold): check them by --preview
+    /// Grey values of wood and adhesive, both ends included, for a stack without labels; without adhesive for undamaged
+    /// wood. auto proposes them (Otsu's two thresholds) for wood darker than adhesive, auto-wood for undamaged wood (one
+    /// threshold): check them by --preview
     #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..")]
     pub(crate) grey: Option<GreyLevels>,
-    /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
-    /// would take
+    /// Write the number of voxels of each grey value (CSV: grey,voxels), and print what --grey auto would take
     #[arg(long, value_name = "CSV")]
     pub(crate) histogram: Option<Output>,
-    /// Take pieces of at most N voxels, connected by faces, edges or corners, for noise: they become the
-    /// phase that most faces around them have
+    /// Remove pieces of at most N voxels (connected by faces, edges or corners) as noise: they become the phase of most
+    /// faces around them
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) despeckle: Option<u16>,
-    /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its centre,
-    /// the box shrinks to lie within the stack, and this axis becomes the bond normal of the file
+    /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its
+    /// centre, the box shrinks to fit within the stack, and this axis becomes the bond normal of the file
     #[arg(long, value_name = "AXIS")]
     pub(crate) level: Option<Axis>,
-    /// Draw the phases in three cuts through the middle, to be looked at before anything is run
+    /// Draw the phases in three cuts through the middle, to check the segmentation
     #[arg(long, value_name = "PNG", value_parser = picture)]
     pub(crate) preview: Option<Output>,
-    /// Box of voxels to keep, the first of a range included and the last not
+    /// Box of voxels to keep; the first of a range is included, the last is not
     #[arg(long, value_name = "x0:x1,y0:y1,z0:z1")]
     pub(crate) crop: Option<Crop>,
     /// Particle file to write; `-` is standard output
@@ -75,7 +73,7 @@ pub(crate) struct Arguments {
         required_unless_present_any = ["histogram", "preview"]
     )]
     pub(crate) output: Option<Output>,
-    /// Go on where two phases look exchanged, or the voxel edge is none in which cells of wood are seen
+    /// Continue where two phases look exchanged, or the voxel edge is above 50 um or below 10 nm
     #[arg(long)]
     pub(crate) yes_really: bool,
     #[command(flatten)]
