@@ -1,4 +1,4 @@
-//! The tables and keys of a case file, but for those of the liquid; docs/case-file.md says what each is.
+//! The tables and keys of a case file, except those of the liquid. docs/case-file.md explains each.
 
 use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
 use physics::{Boundary, Choice, Press, WallLaw};
@@ -130,7 +130,7 @@ pub(crate) struct OutputTable {
     pub(crate) penetration: bool,
 }
 
-/// More than this is a mistake: a file each.
+/// Most snapshots accepted; each is a file.
 const MOST_SNAPSHOTS: u32 = 1_000_000;
 
 fn snapshots<'de, R: serde::Deserializer<'de>>(reader: R) -> Result<u32, R::Error> {
@@ -181,7 +181,7 @@ pub(crate) struct AirTable {
     pub(crate) leak_time: Option<Positive<Time>>,
 }
 
-/// Of the sides normal to each axis.
+/// Conditions on the sides normal to each axis.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Axes {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use particle_file::{BitGrid, Block, Draft, Header, Material, Provenance};
-use run::{Ahead, Mode, Request, RunFailure, Summary};
+use run::{Mode, PossibleEnd, Request, RunFailure, Summary};
 use tempfile::TempDir;
 
 /// A case of cells of `cell` in a scene in plane strain within `corners` (um), or of a bond; liquid of 1.3 Pa s between
@@ -178,7 +178,7 @@ snapshots = 3"#
         folder: &str,
         mode: Mode,
         stop: &dyn Fn() -> bool,
-        progress: &mut dyn FnMut(&[Ahead], String),
+        progress: &mut dyn FnMut(&[PossibleEnd], String),
         changes: &[&str],
     ) -> Result<Option<Summary>, RunFailure> {
         let by = Provenance {
