@@ -1,10 +1,10 @@
 //! Islands of adhesive in the slices of a stack.
 
-use bondline::Placed;
+use bondline::PlacedVoxels;
 use particle_file::BitGrid;
 
-/// Adhesive without what hangs together, by edges and corners of pixels, to fewer than `least` pixels of a slice normal to z.
-pub fn without_islands(adhesive: Placed, least: usize) -> BitGrid {
+/// Adhesive without islands: connected pixels, over edges and corners, that number fewer than `least` in a slice normal to z.
+pub fn without_islands(adhesive: PlacedVoxels, least: usize) -> BitGrid {
     let [nx, ny, nz] = adhesive.bits.dims();
     let mut kept = BitGrid::new([nx, ny, nz]);
     for z in 0..nz {
@@ -30,7 +30,7 @@ mod tests {
         let set =
             |x, y, z| (x == y && y < 3 && z == 0) || (x, y) == (6, 5) || (x, y, z) == (0, 5, 2);
         let bits = BitGrid::from_fn([8, 7, 3], set);
-        let adhesive = Placed {
+        let adhesive = PlacedVoxels {
             origin_m: [0.0; 3],
             voxel_m: 1e-6,
             bits: bits.view(),

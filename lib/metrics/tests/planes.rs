@@ -99,7 +99,7 @@ fn doubted(stack: &Stack) -> String {
     let state = stack.state(Axis::Y);
     let datum = Datum::find(Reference::Fit, &state).unwrap();
     assert!(penetration(&state, &datum)[2].wp_m > 0.0);
-    let doubt = datum.unsure().unwrap();
+    let doubt = datum.fit_doubt().unwrap();
     assert_eq!(doubt, not_levelled(stack));
     assert!(doubt.contains(&datum.tilt().unwrap().to_string()));
     doubt
@@ -249,7 +249,9 @@ fn a_plane_through_wood_is_doubted() {
     let stack = across_x();
     let doubt = |reference, normal| {
         let state = stack.state(normal);
-        Datum::find(reference, &state).unwrap().doubt(&state)
+        Datum::find(reference, &state)
+            .unwrap()
+            .severed_doubt(&state)
     };
     assert_eq!(doubt(Reference::Mid, Axis::X), None);
     let plane = |layers: f64| Reference::Plane(layers * VOXEL);

@@ -156,7 +156,7 @@ impl<'a> BondMeter<'a> {
         let wood = displaced_wood(self.bond, displacements, self.normal)?;
         let [bottom, top] = wood
             .each_ref()
-            .map(|(block, bits)| bondline::Placed::of_block((block, *bits)));
+            .map(|(block, bits)| bondline::PlacedVoxels::of_block((block, *bits)));
         let header = self.bond.header();
         let state = State {
             normal: self.normal,

@@ -52,7 +52,7 @@ pub(crate) fn remarks(scene: &Scene) -> Vec<Remark> {
         out.push(Remark {
             what: "proposed",
             why: format!(
-                "one voxel a cell, grid.cell = \"{um:.6} um\"{same_walls}: fewer than {FEWEST_CELLS} cells across leave pressure and flow off by a tenth and more"
+                "cells of one voxel, grid.cell = \"{um:.6} um\"{same_walls}: with fewer than {FEWEST_CELLS} cells across, pressure and flow are off by 10 % and more"
             ),
         });
     }

@@ -96,7 +96,7 @@ fn holds_a_run(folder: &RunFolder, resume: bool, text: &str) -> RunFailure {
                 "'{name}' already holds a run; use --resume to continue it or --overwrite to replace it"
             ),
             (true, same) if same.is_empty() => format!(
-                "'{name}' holds another run, of another bond or version or of a case file in other words; use --overwrite to replace it"
+                "'{name}' holds another run: its bond file, version or wording of the case file differs; use --overwrite to replace it"
             ),
             (true, changed) => {
                 format!("'{name}' holds another run{changed}; use --overwrite to replace it")
@@ -249,7 +249,7 @@ fn check_own(
 
 fn in_the_way(path: &Path, what: &str) -> RunFailure {
     RunFailure::Usage(format!(
-        "'{}' is {what} and stands where the run writes: move it away or name another run folder",
+        "'{}' is {what}, but the run writes to this name: move it away or name another run folder",
         path.display()
     ))
 }

@@ -13,7 +13,7 @@ pub(crate) fn is_still(file: &File, path: &Path) -> io::Result<()> {
         return Ok(());
     }
     Err(io::Error::other(
-        "it was removed or replaced while the run was on",
+        "it was removed or replaced during the run",
     ))
 }
 

@@ -38,7 +38,7 @@ impl Forecast {
         let fits = |value: f64, most: f64| value <= most;
         if !(fits(self.most_steps, MOST_STEPS) && fits(seconds, MOST_WALL_S)) {
             return Some(format!(
-                "the run would take up to {:.1e} steps of {:.2e} s, {}, where {MOST_STEPS:e} steps or a week are the most; the limit that binds is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
+                "the run would take up to {:.1e} steps of {:.2e} s, {}, more than {MOST_STEPS:e} steps or a week; the binding limit is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
                 self.most_steps,
                 self.dt_s,
                 cli::duration(seconds),

@@ -40,7 +40,7 @@ pub(crate) fn omissions(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Rema
         Some(air) if closes_off(air, setup) => add(
             BEYOND_SIDES,
             format!(
-                "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is {UNCERTAIN}; leak_time is for lumens that go on"
+                "the sides of the specimen close off the air in lumens, which drives liquid into the few open ones: WP is {UNCERTAIN}; give leak_time for lumens that continue beyond the sides"
             ),
         ),
         Some(_) => {}

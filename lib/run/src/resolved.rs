@@ -5,14 +5,14 @@ use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
 use physics::{Choice, Pid};
 use units::{Dimension, Length, Time};
 
-use crate::case::{Case, SchemeName, StopRule, Table, tables};
+use crate::case::{Case, ReferenceTable, SchemeName, StopRule, tables};
 use crate::changed_keys::value_at;
 use crate::resolve::Setup;
 use crate::schemes;
 
 const OPENING: &str = "\
-# The case of this run, with the defaults that held: as a case file it makes the same run again.
-# What the keys are: mpm-run --reference
+# The case of this run with all defaults; used as a case file, it repeats the run.
+# mpm-run --reference explains the keys.
 ";
 
 /// Comment after a default value.
@@ -44,7 +44,7 @@ pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
     out
 }
 
-fn table_text(table: &Table, place: &toml::Value, case: &Case, setup: &Setup) -> String {
+fn table_text(table: &ReferenceTable, place: &toml::Value, case: &Case, setup: &Setup) -> String {
     let mut out = format!("\n{}\n", table.heading);
     for key in &table.keys {
         let name = key.name();

@@ -169,14 +169,14 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
     let mut notes = line(
         "limits",
         format!(
-            "acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
+            "acoustic {:.3e} s, viscous {:.3e} s; the step is {} (Courant number) of the smaller",
             plan.acoustic_s, plan.viscous_s, settings.cfl
         ),
     );
     let (cap, largest) = (plan.viscosity_cap, setup.scene.liquid.viscosity.largest());
     if largest > cap {
         let said = format!(
-            "{cap:.3} Pa s: this step carries no more, and the table goes to {largest} Pa s"
+            "{cap:.3} Pa s, the largest that is stable at this step; the law goes to {largest} Pa s"
         );
         notes += &line("viscosity cap", said);
     }
@@ -231,7 +231,7 @@ fn implicit_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
         notes += &line("trapped air", said);
         // Measured for hot presses and presses at 1 m/s.
         let longer =
-            "a step takes two to six times as long as the run time says (docs/results/press.md)";
+            "a step takes two to six times the run time stated here (docs/results/press.md)";
         notes += &line("", longer);
     }
     Forecast {

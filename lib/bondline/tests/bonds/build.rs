@@ -1,6 +1,6 @@
 //! A bond from synthetic specimens whose answer is known, along each axis.
 
-use bondline::{Bond, Error, Opening, Placed, Specimen, build};
+use bondline::{Bond, Error, Opening, PlacedVoxels, Specimen, build};
 use particle_file::BitGrid;
 use units::Axis;
 
@@ -112,10 +112,10 @@ fn a_plane_through_the_wood_severs_it_and_says_so() {
     let bond = at(10.2).unwrap();
     assert!(near(bond.plane_m, 10.0 * VOXEL));
     assert_eq!(bond.severed, 60 * 12);
-    let doubt = bondline::doubt(bond.severed, bond.area).unwrap();
+    let doubt = bondline::severed_doubt(bond.severed, bond.area).unwrap();
     assert!(doubt.contains("75.0 % of the bond area"), "{doubt}");
     let sound = stack.build(&opening(Axis::Y)).unwrap();
-    assert_eq!(bondline::doubt(sound.severed, sound.area), None);
+    assert_eq!(bondline::severed_doubt(sound.severed, sound.area), None);
     let wood = bond.bottom.bits.count() + bond.top.bits.count();
     assert_eq!(wood, stack.wood.count());
     for outside in [50.0, f64::NAN] {
@@ -187,7 +187,7 @@ fn slabs_and_specimens_that_do_not_fit_are_refused() {
     let (wood, adhesive) = (stack.wood, BitGrid::new([80, 50, 12]));
     Stack { wood, adhesive }.refuses(&opening(Axis::Y), "no adhesive voxel");
     let [a, b] = [BitGrid::new([2, 3, 4]), BitGrid::new([2, 3, 5])];
-    let coarse = Placed {
+    let coarse = PlacedVoxels {
         voxel_m: 1.0,
         ..placed(&a)
     };

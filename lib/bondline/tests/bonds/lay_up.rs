@@ -1,6 +1,6 @@
 //! Bonds of undamaged wood whose answer is counted by hand.
 
-use bondline::{Bond, Error, Layup, Pieces, Placed, lay_up};
+use bondline::{Bond, Error, Layup, Pieces, PlacedVoxels, lay_up};
 use particle_file::BitGrid;
 use units::Axis;
 
@@ -172,7 +172,7 @@ fn pieces_that_do_not_fit_are_refused() {
     );
     let coarser = Pieces::Two {
         bottom: placed(&bottom),
-        top: Placed {
+        top: PlacedVoxels {
             voxel_m: 1.01 * VOXEL,
             ..placed(&top)
         },

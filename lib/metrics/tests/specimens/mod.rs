@@ -1,7 +1,7 @@
 //! Specimens whose penetration is known in closed form.
 #![allow(dead_code)] // each test file uses a part
 
-use bondline::{Placed, Specimen};
+use bondline::{PlacedVoxels, Specimen};
 use metrics::{Adhesive, State, Wood};
 use particle_file::BitGrid;
 use units::Axis;
@@ -43,8 +43,8 @@ pub fn slab(normal: Axis, t: usize) -> Stack {
     })
 }
 
-pub fn placed(bits: &BitGrid) -> Placed<'_> {
-    Placed {
+pub fn placed(bits: &BitGrid) -> PlacedVoxels<'_> {
+    PlacedVoxels {
         origin_m: [0.0; 3],
         voxel_m: VOXEL,
         bits: bits.view(),

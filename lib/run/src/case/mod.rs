@@ -15,9 +15,10 @@ use particle_file::limits;
 
 pub(crate) use adhesive::{Adhesive, CureTable, WaterTable};
 pub use reference::REFERENCE;
-pub(crate) use reference::{Table, tables};
+pub(crate) use reference::{ReferenceTable, tables};
 pub(crate) use schema::{
-    AirTable, Body, BoxCorners, Case, ClampTable, Contact, MaterialName, SchemeName, StageTable,
+    AirTable, BodyTable, BoxCorners, Case, ClampTable, ContactTable, MaterialName, SchemeName,
+    StageTable,
 };
 pub(crate) use value::{BodyVelocity, EdgeLength, StopRule};
 

@@ -5,7 +5,7 @@
 pub const REFERENCE: &str = include_str!("../../../../docs/case-file.md");
 
 /// A table of a case file.
-pub(crate) struct Table {
+pub(crate) struct ReferenceTable {
     /// Heading, such as `[clamp]`, or `[[clamp.stage]]` for a list of tables.
     pub(crate) heading: &'static str,
     /// Dotted path, such as `clamp.stage`.
@@ -13,15 +13,15 @@ pub(crate) struct Table {
     pub(crate) keys: Vec<Key>,
 }
 
-/// A key of a [`Table`]: its name (`pid.kp` is `kp` in the inline table `pid`), its accepted values, and its default, in words
+/// A key of a [`ReferenceTable`]: its name (`pid.kp` is `kp` in the inline table `pid`), its accepted values, and its default, in words
 /// or as `` `value` ``.
 pub(crate) struct Key([&'static str; 3]);
 
 /// The tables in the order of the page.
-pub(crate) fn tables() -> impl Iterator<Item = Table> {
+pub(crate) fn tables() -> impl Iterator<Item = ReferenceTable> {
     REFERENCE.split("\n## `").skip(1).filter_map(|section| {
         let (heading, body) = section.split_once('`')?;
-        Some(Table {
+        Some(ReferenceTable {
             heading,
             path: heading.trim_matches(['[', ']']),
             keys: body.lines().filter_map(Key::of_row).collect(),
@@ -29,7 +29,7 @@ pub(crate) fn tables() -> impl Iterator<Item = Table> {
     })
 }
 
-impl Table {
+impl ReferenceTable {
     pub(crate) fn repeated(&self) -> bool {
         self.heading.starts_with("[[")
     }

@@ -17,7 +17,7 @@ use physics::{
     WallLaw,
 };
 
-use crate::case::{Case, ClampTable, Contact, StopRule};
+use crate::case::{Case, ClampTable, ContactTable, StopRule};
 use crate::failure::{RunFailure, refused};
 
 pub(crate) use bond::swap;
@@ -235,7 +235,7 @@ fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], RunFai
     Ok(sides)
 }
 
-fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, RunFailure> {
+fn wall(contact: Option<&ContactTable>, cell: f64, walls: bool) -> Result<WallLaw, RunFailure> {
     let Some(contact) = contact else {
         return match walls {
             true => refused("the scene has rigid bodies: [contact] law is needed"),

@@ -4,7 +4,7 @@ use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::{Lattice, Seeds};
 use super::{Corners, Geometry, boundary, cells_along, periodic};
-use crate::case::{Body, BodyVelocity, BoxCorners, Case, EdgeLength, MaterialName};
+use crate::case::{BodyTable, BodyVelocity, BoxCorners, Case, EdgeLength, MaterialName};
 use crate::failure::{RunFailure, refused};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, RunFailure> {
@@ -77,7 +77,7 @@ fn overlap(a: &Corners, b: &Corners) -> bool {
 /// Adds a rigid body, or extends the body of the same name and motion.
 fn add_rigid(
     bodies: &mut Vec<RigidBody>,
-    body: &Body,
+    body: &BodyTable,
     parts: Vec<Corners>,
     clamped: bool,
 ) -> Result<(), RunFailure> {

@@ -38,7 +38,7 @@ pub(crate) fn judge(
     let (left, begun) = (liquid.position.len() as u64, setup.liquid.points);
     if follows && left + lost != begun {
         reasons.push(format!(
-            "of {begun} material points {left} are left and {lost} went out of the domain"
+            "of {begun} material points {left} remain and {lost} left the domain"
         ));
     }
     if left == 0 {
@@ -47,7 +47,7 @@ pub(crate) fn judge(
     let cell = setup.scene.grid.cell_m;
     if found.deepest_m > (WALL_RESOLUTION + ROUNDING) * cell {
         reasons.push(format!(
-            "{} of {left} material points lie in rigid bodies, the deepest {:.2} cells; half a cell is what walls are resolved to, so bodies have moved over liquid that could not get away",
+            "{} of {left} material points lie in rigid bodies, the deepest {:.2} cells; walls are resolved to half a cell, so bodies have moved over liquid that could not escape",
             found.points_in_wood,
             found.deepest_m / cell
         ));
@@ -169,7 +169,7 @@ mod tests {
                 "+1.00 % off",
             ),
             (|l| l.position = vec![l.position[0]; 32], "no room for it"),
-            (|l| l.position.truncate(31), "31 are left and 0 went out"),
+            (|l| l.position.truncate(31), "31 remain and 0 left"),
         ];
         for (change, wanted) in cases {
             let found = said(&change, 0);

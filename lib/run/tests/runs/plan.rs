@@ -104,7 +104,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
         // Twice the time at full speed.
         "end closed after 3.00 um of travel, at the latest at 3.0000e-6 s",
         // cell / (c + v) and rho cell^2 / (8 eta), half of it by the Courant number.
-        "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the Courant number 0.5",
+        "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the step is 0.5 (Courant number)",
         "time step 1.0000e-9 s, set by viscous",
         "lumen of 17.4 um 8.7 cells across",
         "measured with 12 cells across that lumen",

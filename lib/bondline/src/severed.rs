@@ -5,11 +5,11 @@ use units::Axis;
 
 use crate::placed::layers;
 
-/// Share of the bond area on which a bond plane is taken to part wood. It parts none in 67 real and synthetic bonds, and
-/// 13 % at most in synthetic ones made worse: rough faces that touch, tilted by 17 degrees.
-const SHARE: f64 = 0.15;
+/// Fraction of the bond area above which a plane that cuts through wood is doubted. Planes cut no wood in 67 real and
+/// synthetic bonds, and 13 % at most in synthetic bonds with rough touching faces, tilted by 17 degrees.
+const MOST_SEVERED: f64 = 0.15;
 
-/// Pairs of wood voxels that touch across the plane below layer `plane`; none at the ends of the wood.
+/// Pairs of wood voxels that touch across the plane below layer `plane`; 0 at the ends of the wood.
 pub fn severed(wood: BitsRef, normal: Axis, plane: usize) -> u64 {
     let n = normal.index();
     if !(1..wood.dims()[n]).contains(&plane) {
@@ -20,10 +20,10 @@ pub fn severed(wood: BitsRef, normal: Axis, plane: usize) -> u64 {
     pairs.map(|(a, b)| u64::from((a & b).count_ones())).sum()
 }
 
-/// A sentence where so many pairs over a bond area of so many voxels make it doubtful that a bond is there.
-pub fn doubt(severed: u64, area: u64) -> Option<String> {
+/// A sentence if the plane cuts so many pairs, over `area` voxels, that it is hardly a bond plane.
+pub fn severed_doubt(severed: u64, area: u64) -> Option<String> {
     let share = severed as f64 / area.max(1) as f64;
-    (share > SHARE).then(|| {
+    (share > MOST_SEVERED).then(|| {
         format!(
             "the bond plane parts wood on {:.1} % of the bond area, where a bond has adhesive: look whether the specimen is a bond, which label is what, and which axis is across the bond",
             100.0 * share
