@@ -115,7 +115,7 @@ fn bond_line_in(profile: &Profile) -> Result<BondLine, Error> {
     let contrast = profile.contrast(seed);
     if contrast <= 0.0 {
         return Err(Error::new(format!(
-            "no layer normal to {} looks like a bond line: at best adhesive covers {:.1} % of a layer less than wood does, as where the bond is turned too far or lies across another axis",
+            "no layer normal to {} looks like a bond line: in the best one adhesive covers {:.1} % of a layer less than wood, as if the bond were tilted too far or lay across another axis",
             profile.normal,
             -100.0 * contrast
         ))

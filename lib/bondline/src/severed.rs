@@ -25,7 +25,7 @@ pub fn severed_doubt(severed: u64, area: u64) -> Option<String> {
     let share = severed as f64 / area.max(1) as f64;
     (share > MOST_SEVERED).then(|| {
         format!(
-            "the bond plane parts wood on {:.1} % of the bond area, where a bond has adhesive: look whether the specimen is a bond, which label is what, and which axis is across the bond",
+            "the bond plane cuts through wood on {:.1} % of the bond area, where a bond has adhesive: check that the specimen is a bond, its labels, and the axis across the bond",
             100.0 * share
         )
     })

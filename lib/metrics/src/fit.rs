@@ -179,13 +179,13 @@ impl Plane {
             ))
         } else if unsure > 0.5 * opening {
             Some(format!(
-                "{said} and known to {:.1} um at a corner of the bond area, which is more than half of the {:.1} um between the adherends",
+                "{said} with an error of {:.1} um at a corner of the bond area, more than half of the {:.1} um between the adherends",
                 1e6 * unsure,
                 1e6 * opening
             ))
         } else if part < LEAST_FRACTION {
             Some(format!(
-                "{said} and hardly known: walls so thin meet across {:.1} % of the bond area alone, and lumens are taken for surfaces",
+                "{said} and hardly known: walls are so thin that they meet across only {:.1} % of the bond area, and lumens are mistaken for surfaces",
                 1e2 * part
             ))
         } else {

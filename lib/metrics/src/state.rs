@@ -199,7 +199,7 @@ fn check_columns(file: &ParticleFile) -> Result<(), Error> {
     let columns = limits::volume(span) / span[usize::from(file.header().normal)].max(1);
     let (bytes, what) = (
         columns.saturating_mul(ROW),
-        "what is measured in each column",
+        "the measures of each column",
     );
     file.is_worth(bytes, what)?;
     Ok(file.fits(bytes / 2, what)?)

@@ -31,7 +31,7 @@ pub(super) fn programme(
         ));
     }
     let Some(room_m) = travel_m else {
-        return refused("[[clamp.stage]] needs the way that the clamp has: give [clamp] travel");
+        return refused("[[clamp.stage]] needs the clamp's travel: give [clamp] travel");
     };
     let mut stages: Vec<PressStage> = Vec::new();
     for (index, stage) in table.stage.iter().enumerate() {
