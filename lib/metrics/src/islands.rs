@@ -26,7 +26,7 @@ mod tests {
 
     #[test]
     fn islands_are_of_a_slice_and_hang_together_by_corners() {
-        // A diagonal of three in the first slice, a column of one pixel a slice, and one alone.
+        // A diagonal of three pixels in the first slice, a column of one pixel per slice, and a single pixel.
         let set =
             |x, y, z| (x == y && y < 3 && z == 0) || (x, y) == (6, 5) || (x, y, z) == (0, 5, 2);
         let bits = BitGrid::from_fn([8, 7, 3], set);

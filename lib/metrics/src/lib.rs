@@ -2,7 +2,7 @@
 //! profiles, agreement with an experiment, and the shear rates of a run.
 //!
 //! A [`State`] is the common view of a specimen, of a bond before pressing and of a state of
-//! a run; a [`Datum`] is what distances are measured from; the rest are functions of both.
+//! a run; a [`Datum`] is the reference of depths; the rest are functions of both.
 //! Lengths are metres, and all results are independent of the number of threads.
 
 mod bond_line;

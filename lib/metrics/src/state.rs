@@ -197,10 +197,7 @@ fn check_columns(file: &ParticleFile) -> Result<(), Error> {
     const ROW: u64 = 64;
     let span = file.header().span();
     let columns = limits::volume(span) / span[usize::from(file.header().normal)].max(1);
-    let (bytes, what) = (
-        columns.saturating_mul(ROW),
-        "the measures of each column",
-    );
+    let (bytes, what) = (columns.saturating_mul(ROW), "the measures of each column");
     file.is_worth(bytes, what)?;
     Ok(file.fits(bytes / 2, what)?)
 }

@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// The slip that is left, and what is wrong with any other.
+    /// The remaining slip, and the residual of the law at any slip.
     fn solved<R: Rheology>(law: &R, slip: f64, dose: f64) -> (f64, impl Fn(f64) -> f64) {
         let (rate, a) = (slip / LENGTH, dose / LENGTH);
         let excess = move |x: f64| x * (1.0 + a * law.viscosity(x * rate)) - 1.0;
@@ -192,7 +192,7 @@ mod tests {
         }
     }
 
-    /// Plain false position keeps one end and creeps: 34 evaluations instead of 11.
+    /// Plain false position keeps one end of the bracket and needs 34 evaluations instead of 11.
     #[test]
     fn the_root_is_found_in_few_evaluations() {
         let count = std::cell::Cell::new(0);

@@ -11,13 +11,13 @@ use crate::checkpoint::{self, Checkpoint, Origin};
 use crate::clock::Clock;
 use crate::courant::without_cfl;
 use crate::failure::RunFailure;
-use crate::files::is_there;
+use crate::files::is_taken;
 use crate::folder::{
     CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY, TEMPORARY, snapshot_name,
 };
 use crate::resolved;
 
-/// How to start a run: what to do with an earlier run in its folder, and with a forecast that is too long.
+/// Treatment of an earlier run in the folder, and of a forecast that is too long.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mode {
     /// Continue from the checkpoint.
@@ -37,7 +37,7 @@ pub(crate) fn checkpoint(
     text: &str,
 ) -> Result<Option<Checkpoint>, RunFailure> {
     // A run with a final state has ended; the checkpoint beside it is a leftover.
-    if !mode.resume || is_there(&folder.place(FINAL)) {
+    if !mode.resume || is_taken(&folder.path_of(FINAL)) {
         return Ok(None);
     }
     match checkpoint::read(folder.path(), origin, &|| {
@@ -62,9 +62,9 @@ pub(crate) fn start_anew(
     text: &str,
     by: &Provenance,
 ) -> Result<(), RunFailure> {
-    let holds = |name: &str| is_there(&folder.place(name));
+    let holds = |name: &str| is_taken(&folder.path_of(name));
     // The same run, killed before its first checkpoint, has nothing to lose.
-    let begun = || fs::read_to_string(folder.place(RESOLVED)).is_ok_and(|found| found == text);
+    let begun = || fs::read_to_string(folder.path_of(RESOLVED)).is_ok_and(|found| found == text);
     let again = mode.resume && !holds(FINAL) && begun();
     let lost = [HISTORY, FINAL, CHECKPOINT].into_iter().any(holds);
     if lost && !mode.overwrite && !again {
@@ -78,7 +78,7 @@ pub(crate) fn start_anew(
 /// The keys that differ from the case of the folder's run, in brackets; empty if that case is not known. `part` selects the
 /// part of the case text to compare.
 fn differing_keys(folder: &RunFolder, text: &str, part: fn(&str) -> String) -> String {
-    let Ok(was) = fs::read_to_string(folder.place(RESOLVED)) else {
+    let Ok(was) = fs::read_to_string(folder.path_of(RESOLVED)) else {
         return String::new();
     };
     let changed = resolved::differences([text, &was], part);
@@ -123,10 +123,10 @@ pub(crate) fn prepare_continuation(
 /// Removes the files of an earlier run after checking that a run wrote all of them. The final state goes first, so that a
 /// kill in between leaves no run that looks complete.
 fn remove_earlier_run(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
-    if is_there(&folder.place(FINAL)) {
+    if is_taken(&folder.path_of(FINAL)) {
         check_own_state(folder, FINAL, by)?;
     }
-    if is_there(&folder.place(CHECKPOINT)) {
+    if is_taken(&folder.path_of(CHECKPOINT)) {
         check_own(folder, CHECKPOINT, |file| {
             file.header().kind == Kind::Checkpoint
         })?;
@@ -140,7 +140,7 @@ fn remove_earlier_run(folder: &RunFolder, by: &Provenance) -> Result<(), RunFail
         folder.remove(&name)?;
     }
     // A folder with other files in it stays.
-    let _ = fs::remove_dir(folder.place(SNAPSHOTS));
+    let _ = fs::remove_dir(folder.path_of(SNAPSHOTS));
     Ok(())
 }
 
@@ -158,7 +158,7 @@ pub(crate) fn remove_leftover_checkpoint(
 /// Refuses a folder in which a name of the run is taken by another kind of file or by one of `inputs`. Removes unfinished
 /// files of a killed run.
 pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), RunFailure> {
-    let snapshots_folder = folder.place(SNAPSHOTS);
+    let snapshots_folder = folder.path_of(SNAPSHOTS);
     if fs::symlink_metadata(&snapshots_folder).is_ok_and(|found| !found.is_dir()) {
         return Err(in_the_way(
             &snapshots_folder,
@@ -167,7 +167,7 @@ pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), Ru
     }
     let asides = [TEMPORARY.to_owned(), format!("{SNAPSHOTS}/{TEMPORARY}")];
     for name in replaced_names(folder, 0)?.iter().chain(&asides) {
-        let path = folder.place(name);
+        let path = folder.path_of(name);
         let Ok(found) = fs::symlink_metadata(&path) else {
             continue;
         };
@@ -198,7 +198,7 @@ fn replaced_names(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunFail
 
 /// Names of the snapshots from number `first` on.
 fn snapshot_names(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunFailure> {
-    let path = folder.place(SNAPSHOTS);
+    let path = folder.path_of(SNAPSHOTS);
     let entries = match fs::read_dir(&path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
         entries => entries.map_err(RunFailure::write(&path))?,
@@ -239,7 +239,7 @@ fn check_own(
     name: &str,
     is_own: impl FnOnce(&ParticleFile) -> bool,
 ) -> Result<(), RunFailure> {
-    let path = folder.place(name);
+    let path = folder.path_of(name);
     if ParticleFile::open(&path).is_ok_and(|file| is_own(&file)) {
         Ok(())
     } else {

@@ -7,7 +7,7 @@ use std::path::Path;
 use same_file::Handle;
 
 /// Fails if the open `file` at `path` was removed or replaced by someone else.
-pub(crate) fn is_still(file: &File, path: &Path) -> io::Result<()> {
+pub(crate) fn check_not_replaced(file: &File, path: &Path) -> io::Result<()> {
     let ours = Handle::from_file(file.try_clone()?)?;
     if Handle::from_path(path).is_ok_and(|there| there == ours) {
         return Ok(());
@@ -18,7 +18,7 @@ pub(crate) fn is_still(file: &File, path: &Path) -> io::Result<()> {
 }
 
 /// Whether anything has this name, a dangling link included.
-pub(crate) fn is_there(path: &Path) -> bool {
+pub(crate) fn is_taken(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 

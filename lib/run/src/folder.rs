@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use particle_file::{Provenance, RUN_MARK};
 
 use crate::failure::RunFailure;
-use crate::files::{is_still, is_there, sync_folder};
+use crate::files::{check_not_replaced, is_taken, sync_folder};
 use crate::folder_mark;
 
 /// The final state; a run with this file has ended.
@@ -71,7 +71,7 @@ impl RunFolder {
                 )));
             }
         }
-        if !is_there(&path.join(RUN_MARK)) {
+        if !is_taken(&path.join(RUN_MARK)) {
             return Ok(None);
         }
         Self::lock(path, by).map(Some)
@@ -84,9 +84,9 @@ impl RunFolder {
         let names = [
             FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS, TEMPORARY,
         ];
-        let taken = names.iter().find(|name| is_there(&path.join(name)));
+        let taken = names.iter().find(|name| is_taken(&path.join(name)));
         // Another run may have marked the folder since; `lock` or the check of earlier runs handles that.
-        if let Some(name) = taken.filter(|_| !is_there(&path.join(RUN_MARK))) {
+        if let Some(name) = taken.filter(|_| !is_taken(&path.join(RUN_MARK))) {
             return Err(RunFailure::Usage(format!(
                 "'{0}' holds '{name}' but is not marked as a run folder, so nothing in it is replaced or continued: \
                  name another folder, or, if it is a run of an earlier version, create an empty file '{1}' and use --overwrite",
@@ -150,7 +150,7 @@ impl RunFolder {
     }
 
     /// Path of `name` in the folder.
-    pub(crate) fn place(&self, name: &str) -> PathBuf {
+    pub(crate) fn path_of(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
@@ -162,11 +162,11 @@ impl RunFolder {
         name: &str,
         body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), RunFailure> {
-        let path = self.place(name);
+        let path = self.path_of(name);
         let within = path.parent().unwrap_or(&self.path);
         let aside = within.join(TEMPORARY);
-        let place = self.place(RUN_MARK);
-        is_still(&self.marker, &place).map_err(RunFailure::write(&place))?;
+        let place = self.path_of(RUN_MARK);
+        check_not_replaced(&self.marker, &place).map_err(RunFailure::write(&place))?;
         let replaced = machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
         // Must be a new file, so that nothing is written through a link.
         let file = File::create_new(&aside).map_err(RunFailure::write(&path))?;
@@ -195,7 +195,7 @@ impl RunFolder {
 
     /// Removes the file `name`, if it exists.
     pub(crate) fn remove(&self, name: &str) -> Result<(), RunFailure> {
-        let path = self.place(name);
+        let path = self.path_of(name);
         let remove = || match machine::replaced_permissions(&path)? {
             Some(permissions) => {
                 fs::remove_file(&path)?;
@@ -211,10 +211,10 @@ impl RunFolder {
     /// Errors: the folder or file and the reason.
     pub(crate) fn check_writable(&self, names: &[String]) -> Result<(), RunFailure> {
         for name in names {
-            let path = self.place(name);
+            let path = self.path_of(name);
             machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
         }
-        for within in [self.path.clone(), self.place(SNAPSHOTS)] {
+        for within in [self.path.clone(), self.path_of(SNAPSHOTS)] {
             let aside = within.join(TEMPORARY);
             match File::create_new(&aside).and_then(|_| fs::remove_file(&aside)) {
                 Err(e) if e.kind() == io::ErrorKind::NotFound => {}
@@ -226,7 +226,7 @@ impl RunFolder {
 
     /// Makes the folder of the snapshots; the run folder itself must still exist.
     pub(crate) fn make_snapshots(&self) -> Result<(), RunFailure> {
-        let path = self.place(SNAPSHOTS);
+        let path = self.path_of(SNAPSHOTS);
         match fs::create_dir(&path) {
             Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok(()),
             made => made.and_then(|()| sync_folder(&self.path)),
@@ -270,7 +270,7 @@ pub(crate) mod tests {
         folder.make_snapshots().unwrap();
         for within in [place.path().to_owned(), place.path().join(SNAPSHOTS)] {
             folder.check_writable(&[]).unwrap();
-            assert!(!is_there(&within.join(TEMPORARY)));
+            assert!(!is_taken(&within.join(TEMPORARY)));
             fs::write(within.join(TEMPORARY), "theirs").unwrap();
             assert!(folder.check_writable(&[]).is_err());
             fs::remove_file(within.join(TEMPORARY)).unwrap();

@@ -10,7 +10,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 use crate::bond_measures::{self, BondRow};
 use crate::clock::Clock;
 use crate::failure::RunFailure;
-use crate::files::is_still;
+use crate::files::check_not_replaced;
 use crate::folder::{HISTORY, RunFolder};
 use crate::resolve::Setup;
 
@@ -59,7 +59,7 @@ impl History {
         let more = more.map(|(has, columns)| if has { columns } else { "" });
         let header = format!("{COMMON_COLUMNS}{}\n", more.concat());
         folder.write_text(HISTORY, &header)?;
-        let path = folder.place(HISTORY);
+        let path = folder.path_of(HISTORY);
         let open = File::options().append(true).open(&path);
         let mut hash = Xxh3Default::new();
         hash.update(header.as_bytes());
@@ -74,7 +74,7 @@ impl History {
     /// Continues the history from a checkpoint and cuts off whatever was written after it.
     /// Errors: the history does not begin as it was at the checkpoint (exit 3); a failed write.
     pub(crate) fn resume(folder: &RunFolder, extent: Extent) -> Result<Self, RunFailure> {
-        let path = folder.place(HISTORY);
+        let path = folder.path_of(HISTORY);
         let unusable = |why: &str| {
             RunFailure::Data(format!(
                 "'{}' {why}, so the run cannot be continued; use --overwrite to start anew",
@@ -105,7 +105,7 @@ impl History {
     pub(crate) fn sync(&self) -> Result<Extent, RunFailure> {
         let sync = || {
             self.file.sync_data()?;
-            is_still(&self.file, &self.path)
+            check_not_replaced(&self.file, &self.path)
         };
         sync().map_err(RunFailure::write(&self.path))?;
         Ok(Extent {
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
         let (_place, folder) = test_folder();
-        let path = folder.place(HISTORY);
+        let path = folder.path_of(HISTORY);
         let mut history = create(&folder);
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
@@ -234,15 +234,15 @@ mod tests {
         let mut history = create(&folder);
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
-        let whole = fs::read(folder.place(HISTORY)).unwrap();
+        let whole = fs::read(folder.path_of(HISTORY)).unwrap();
         let mut garbled = whole.clone();
         garbled[200] = 0xff;
         for bytes in [&garbled[..], &whole[..whole.len() - 1], b""] {
-            fs::write(folder.place(HISTORY), bytes).unwrap();
+            fs::write(folder.path_of(HISTORY), bytes).unwrap();
             let said = History::resume(&folder, extent).err().unwrap().to_string();
             assert!(said.contains("not what it was"), "{said}");
         }
-        fs::remove_file(folder.place(HISTORY)).unwrap();
+        fs::remove_file(folder.path_of(HISTORY)).unwrap();
         let said = History::resume(&folder, extent).err().unwrap().to_string();
         assert!(said.contains("is missing"), "{said}");
         // A run must not end well without its history.

@@ -216,7 +216,7 @@ pub(crate) mod tests {
     #[test]
     fn a_displaced_body_is_looked_at_where_it_is() {
         let shift = [0.5, -3.0, 2.0];
-        // Wood but for a void at the bond, i = 1, and a closed one, i = 3.
+        // Wood with a void at the bond, i = 1, and a closed one, i = 3.
         let block =
             VoxelBlock::from_fn([10.0, 20.0, 30.0], [2.0, 4.0, 8.0], [5, 4, 3], |i, j, k| {
                 !(i == 1 && j == 3 && k == 1 || i == 3 && j == 1 && k == 1)

@@ -159,7 +159,7 @@ impl Request {
         let (clock, courant, history) = match checkpoint {
             Some(checkpoint) => self.resume(folder, checkpoint, scheme.as_mut(), &resolved)?,
             None => {
-                let what = match folder.place(RESOLVED).exists() {
+                let what = match folder.path_of(RESOLVED).exists() {
                     true => "no checkpoint of this run: it starts again",
                     false => "no run to continue: a new one starts",
                 };
@@ -191,7 +191,7 @@ impl Request {
         let (end, clock) = (outcome.end, outcome.clock);
         let rows = match self.setup.scene.programme.is_empty() {
             true => String::new(),
-            false => fs::read_to_string(folder.place(HISTORY)).unwrap_or_default(),
+            false => fs::read_to_string(folder.path_of(HISTORY)).unwrap_or_default(),
         };
         let meter = meter.as_ref();
         let (summary, liquid, displacements) =
@@ -238,7 +238,7 @@ impl Request {
     ) -> Result<Start, RunFailure> {
         let restored = scheme.restore(&checkpoint.saved);
         restored.map_err(|said| {
-            let path = folder.place(CHECKPOINT);
+            let path = folder.path_of(CHECKPOINT);
             RunFailure::Data(format!("{}: {said}", path.display()))
         })?;
         let history = History::resume(folder, checkpoint.history)?;

@@ -1,4 +1,4 @@
-//! Bonds before pressing whose answer is known.
+//! Bonds before pressing with known results.
 
 mod build;
 mod lay_up;

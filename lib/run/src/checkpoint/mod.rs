@@ -20,7 +20,7 @@ const RUN_FORMAT: u32 = 1;
 /// Identity of a run and its build; a checkpoint must match it.
 #[derive(Debug)]
 pub(crate) struct Origin {
-    /// The case but for its Courant number, and the bond file.
+    /// Hashes of the case without its Courant number and of the bond file.
     pub(crate) identity: String,
     /// Version of the checkpoint's layout, from [`format`].
     pub(crate) format: String,
@@ -126,7 +126,7 @@ pub(crate) fn write(
 
 /// The end of a sentence, with the path of the last checkpoint.
 pub(crate) fn where_last(folder: &RunFolder) -> String {
-    let path = folder.place(CHECKPOINT);
+    let path = folder.path_of(CHECKPOINT);
     if path.exists() {
         format!(
             "; --resume goes on from the last good checkpoint, {}, at another integrator.cfl if wanted",
