@@ -229,7 +229,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     let [soon, late] = [leaks("1 ns"), leaks("1000 s")];
     let side = |z| format!("boundary={{ x = \"open\", z = \"{z}\" }}");
     let [open, mirror] = [side("open"), side("symmetry")];
-    let closed = "beyond the sides air in lumens is closed off";
+    let closed = "beyond the sides the sides of the specimen close off the air";
     for (changes, doubted) in [
         (["boundary={ z = \"periodic\" }", air], true),
         ([open.as_str(), air], false),
