@@ -5,17 +5,17 @@ use units::Axis;
 
 use crate::placed::{corner, layers};
 use crate::slab;
-use crate::{BondLine, Error, Face, Placed, Specimen, find, severed};
+use crate::{BondLine, Error, Face, PlacedVoxels, Specimen, find_bond_line, severed};
 
-/// How adherends are parted and a slab is put between them.
+/// How to part two adherends and place a slab of adhesive between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
     /// Axis across the bond.
     pub normal: Axis,
     /// Voxels along the edge of a cell of the later grid, at least one.
     pub voxels_per_cell: usize,
-    /// How far to move the top adherend away from where it was, or touches the other (m); `None`: as little as leaves
-    /// room for the slab.
+    /// Distance by which to move the top adherend away from its place in the specimen, or from first contact (m); `None`: just
+    /// enough for the slab.
     pub gap_m: Option<f64>,
     /// Largest relative change of the adhesive volume by rounding the slab to whole cells.
     pub tolerance: f64,
@@ -31,11 +31,11 @@ pub struct Opening {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bond {
     /// Bottom adherend, in place.
-    pub bottom: Part,
+    pub bottom: BondBody,
     /// Top adherend, moved away by the gap.
-    pub top: Part,
+    pub top: BondBody,
     /// The adhesive slab: every voxel is set.
-    pub slab: Part,
+    pub slab: BondBody,
     /// Edge of a voxel, m.
     pub voxel_m: f64,
     /// Low corner of the box, m. Along the normal it lies a whole number of cells below the
@@ -45,32 +45,31 @@ pub struct Bond {
     pub box_max_m: [f64; 3],
     /// Where the wood was split, m.
     pub plane_m: f64,
-    /// What the detection found; `None` for a plane given by hand.
+    /// The detected bond line; `None` for a plane given by hand.
     pub found: Option<BondLine>,
-    /// The faces of undamaged wood, bottom and top; `None` of a bonded specimen.
+    /// The bond faces of undamaged wood, bottom and top; `None` for a bonded specimen.
     pub faces: Option<[Face; 2]>,
-    /// How far the top adherend was moved away, m.
+    /// Distance by which the top adherend was moved away, m.
     pub gap_m: f64,
     /// Thickness of the slab in cells.
     pub slab_cells: u64,
     /// Edge of a cell, m.
     pub cell_m: f64,
-    /// Adhesive voxels removed; of undamaged wood, the volume asked for over that of a voxel.
+    /// Adhesive voxels removed; for undamaged wood, the requested volume over that of a voxel.
     pub adhesive_in: f64,
     /// Adhesive voxels of the slab.
     pub adhesive_out: u64,
-    /// Pairs of wood voxels that touched across the plane, or do so where the pieces close.
+    /// Pairs of wood voxels that touch across the bond plane when closed.
     pub severed: u64,
-    /// Voxels in a layer, i.e. of the bond area.
+    /// Bond area in voxels.
     pub area: u64,
-    /// Layers left out at the high sides across the bond, along x, y, z, so that the bond
-    /// area is a whole number of cells wide.
+    /// Layers cut off at the high sides along x, y, z, so that the bond area is a whole number of cells wide.
     pub trimmed: [usize; 3],
 }
 
-/// One part of a bond.
+/// One body of a bond: an adherend or the slab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct BondBody {
     /// Low corner, m.
     pub origin_m: [f64; 3],
     /// Its voxels.
@@ -88,7 +87,7 @@ impl Bond {
         self.slab_cells as f64 * self.cell_m
     }
 
-    /// Its particle file, with this header.
+    /// The bond file with this header.
     pub fn draft(&self, header: Header) -> Draft<'_> {
         let parts = [
             ("wood-bottom", Material::Rigid, &self.bottom),
@@ -109,14 +108,14 @@ impl Bond {
     }
 }
 
-/// Builds the bond line before pressing: the wood is split at `plane_m`, rounded to the nearest face between voxels, or midway between
-/// the bond surfaces that [`find`] finds.
+/// Builds the bond line before pressing. The wood is split at `plane_m`, rounded to the nearest face between voxels, or
+/// midway between the bond surfaces found by [`find_bond_line`].
 ///
 /// Every wood voxel of the (trimmed) specimen is kept, and belongs to the adherend on its
 /// side of the plane.
 ///
 /// # Errors
-/// No adhesive, no bond line, no wood on a side, a plane outside, and those of the slab and the gap.
+/// No adhesive, no bond line, no wood on a side, a plane outside the specimen; a slab or gap that does not fit.
 pub fn build(specimen: &Specimen, plane_m: Option<f64>, opening: &Opening) -> Result<Bond, Error> {
     let (normal, wood) = (opening.normal, specimen.wood());
     let n = normal.index();
@@ -127,7 +126,7 @@ pub fn build(specimen: &Specimen, plane_m: Option<f64>, opening: &Opening) -> Re
     }
     let (plane, found) = match plane_m {
         None => {
-            let line = find(specimen, normal)?;
+            let line = find_bond_line(specimen, normal)?;
             // A middle inside a voxel goes to the face below it: nothing but adhesive or air
             // lies between the two surfaces on average.
             (line.middle() as usize, Some(line))
@@ -142,7 +141,7 @@ pub fn build(specimen: &Specimen, plane_m: Option<f64>, opening: &Opening) -> Re
     let no_wood =
         |side| Error::no_wood(format!("{side} the bond plane at {:.3} um", 1e6 * plane_m));
     let free = |counts: &[u64]| Some(counts.iter().position(|&n| n > 0)? as i64);
-    let free = [
+    let free_layers = [
         free(&below).ok_or_else(|| no_wood("below"))?,
         free(&above).ok_or_else(|| no_wood("above"))?,
     ];
@@ -151,45 +150,43 @@ pub fn build(specimen: &Specimen, plane_m: Option<f64>, opening: &Opening) -> Re
         voxel_m: wood.voxel_m,
         bottom,
         top,
-        touch: plane,
+        top_begins: plane,
         plane,
-        free,
+        free_layers,
         severed: severed(bits.view(), normal, plane),
-        room_m: f64::INFINITY,
+        void_m: f64::INFINITY,
         adhesive_in,
     };
     Ok(Bond {
         trimmed,
         found,
-        ..closed.opened(opening)?
+        ..closed.open(opening)?
     })
 }
 
-/// Two adherends, equally wide, where they are closed; layers are counted from the low face of the
-/// bottom one.
+/// Two closed adherends of equal width. Layers count from the low face of the bottom one.
 pub(crate) struct Closed {
     pub(crate) origin_m: [f64; 3],
     pub(crate) voxel_m: f64,
     pub(crate) bottom: BitGrid,
     pub(crate) top: BitGrid,
-    /// Where the top adherend begins.
-    pub(crate) touch: usize,
+    /// First layer of the top adherend.
+    pub(crate) top_begins: usize,
     /// The bond plane.
     pub(crate) plane: usize,
-    /// Layers from the plane to the outermost wood of the bottom and of the top adherend; negative
-    /// where it reaches beyond.
-    pub(crate) free: [i64; 2],
+    /// Free layers between the plane and the outermost wood of each adherend; negative if the wood reaches beyond the plane.
+    pub(crate) free_layers: [i64; 2],
     /// Columns whose wood touches.
     pub(crate) severed: u64,
-    /// Thickness of the slab (m) that the void of both holds.
-    pub(crate) room_m: f64,
-    /// Voxels of adhesive that the slab is to have.
+    /// Thickness of the slab (m) that the voids of both adherends can take up.
+    pub(crate) void_m: f64,
+    /// Voxels of adhesive wanted in the slab.
     pub(crate) adhesive_in: f64,
 }
 
 impl Closed {
-    /// Moves the top adherend away and puts the slab between.
-    pub(crate) fn opened(self, opening: &Opening) -> Result<Bond, Error> {
+    /// Moves the top adherend away and places the slab between the two.
+    pub(crate) fn open(self, opening: &Opening) -> Result<Bond, Error> {
         let (n, voxel_m, adhesive_in) = (opening.normal.index(), self.voxel_m, self.adhesive_in);
         let cell_m = opening.voxels_per_cell as f64 * voxel_m;
         let mut dims = self.bottom.dims();
@@ -202,11 +199,11 @@ impl Closed {
             cell_m,
         )?;
         let slab_m = slab_cells as f64 * cell_m;
-        if slab_m > self.room_m {
+        if slab_m > self.void_m {
             return Err(Error::new(format!(
                 "a slab of {:.3} um is more than all void of the closed pieces, {:.3} um over the bond area: they could never close; take thicker pieces or less adhesive",
                 1e6 * slab_m,
-                1e6 * self.room_m
+                1e6 * self.void_m
             )));
         }
         let at = |coordinate: f64| {
@@ -215,20 +212,20 @@ impl Closed {
             origin
         };
         let place = |layer: usize| self.origin_m[n] + layer as f64 * voxel_m;
-        let into_one_another = (-self.free[0] - self.free[1]).max(0);
+        let into_one_another = (-self.free_layers[0] - self.free_layers[1]).max(0);
         let gap_m = (opening.gap_m).unwrap_or(slab_m + into_one_another as f64 * voxel_m);
         let plane_m = place(self.plane);
-        let free_m = self.free.map(|layers| layers as f64 * voxel_m);
+        let free_m = self.free_layers.map(|layers| layers as f64 * voxel_m);
         let slab_low_m = slab::low_face(plane_m, gap_m, slab_m, free_m, voxel_m)?;
         let cells_below = ((slab_low_m - self.origin_m[n]) / cell_m - 1e-9).ceil();
         let mut closed = dims;
-        closed[n] = self.touch + self.top.dims()[n];
+        closed[n] = self.top_begins + self.top.dims()[n];
         let mut box_max_m = [0, 1, 2].map(|a| self.origin_m[a] + closed[a] as f64 * voxel_m);
         box_max_m[n] += gap_m;
         dims[n] = (slab_m / voxel_m).round() as usize;
         Ok(Bond {
             severed: self.severed,
-            slab: Part {
+            slab: BondBody {
                 origin_m: at(slab_low_m),
                 bits: BitGrid::from_rows(dims, |_, _, row| row.fill(u64::MAX)),
             },
@@ -245,11 +242,11 @@ impl Closed {
             adhesive_out: area * dims[n] as u64,
             area,
             trimmed: [0; 3],
-            top: Part {
-                origin_m: at(place(self.touch) + gap_m),
+            top: BondBody {
+                origin_m: at(place(self.top_begins) + gap_m),
                 bits: self.top,
             },
-            bottom: Part {
+            bottom: BondBody {
                 origin_m: self.origin_m,
                 bits: self.bottom,
             },
@@ -257,8 +254,8 @@ impl Closed {
     }
 }
 
-/// Dimensions cut to whole cells across the bond, and what was cut. A stack thinner than a
-/// cell (plane strain) stays.
+/// Dimensions cut to whole cells across the bond, and the layers cut off. A stack thinner than a cell (plane strain) is
+/// left as it is.
 pub(crate) fn whole_cells(dims: [usize; 3], opening: &Opening) -> ([usize; 3], [usize; 3]) {
     let (mut kept, per_cell) = (dims, opening.voxels_per_cell);
     for (a, d) in kept.iter_mut().enumerate() {
@@ -270,7 +267,7 @@ pub(crate) fn whole_cells(dims: [usize; 3], opening: &Opening) -> ([usize; 3], [
 }
 
 /// The layer of `wood` that begins at the face between voxels nearest to `plane_m`.
-pub(crate) fn layer_at(wood: Placed, plane_m: f64, normal: Axis) -> Result<usize, Error> {
+pub(crate) fn layer_at(wood: PlacedVoxels, plane_m: f64, normal: Axis) -> Result<usize, Error> {
     let n = normal.index();
     let layers = ((plane_m - wood.origin_m[n]) / wood.voxel_m).round();
     if layers >= 1.0 && layers < wood.bits.dims()[n] as f64 {

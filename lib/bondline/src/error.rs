@@ -1,4 +1,4 @@
-//! Why there is no bond line.
+//! Errors in finding or building a bond line.
 
 use std::fmt;
 
@@ -19,13 +19,13 @@ impl Error {
         }
     }
 
-    /// Adds what would help, with the mark before it.
+    /// Adds a remedy, punctuation included.
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
         self.help = help.into();
         self
     }
 
-    /// No options help.
+    /// An error of the specimen itself, which no option can mend.
     pub(crate) fn unfit(what: impl Into<String>) -> Self {
         let unfit = true;
         Self {
@@ -34,7 +34,7 @@ impl Error {
         }
     }
 
-    /// That of a specimen without an adhesive voxel.
+    /// The error for a specimen without adhesive.
     pub fn no_adhesive() -> Self {
         Self::new("the specimen has no adhesive voxel").help(
             ": a bonded specimen is needed, or, to bond wood alone, build-bondline with --slab or --spread",
@@ -48,12 +48,12 @@ impl Error {
         .help(", or another --normal")
     }
 
-    /// Whether the specimen itself is unfit, whatever the options.
+    /// Whether the specimen itself is at fault, so that no option helps.
     pub fn is_unfit_data(&self) -> bool {
         self.unfit
     }
 
-    /// The sentence without the options that would help.
+    /// The sentence without the remedy.
     pub fn what(&self) -> &str {
         &self.what
     }

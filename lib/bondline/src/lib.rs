@@ -2,27 +2,25 @@
 //! is removed, the wood is split at the bond plane, the top adherend is moved away and a
 //! rectangular slab with the volume of the removed adhesive takes the space between.
 //!
-//! Undamaged wood, one piece cut or two laid up, comes to the same by [`lay_up`], its slab by
-//! thickness.
+//! For undamaged wood, one piece cut or two laid up, [`lay_up`] does the same with a slab of given thickness.
 //!
-//! Everything happens in the axes of the stack; only the layers are counted along the bond
-//! normal. "Bottom" is the low-coordinate side.
+//! All coordinates are those of the stack; layers count along the bond normal. "Bottom" is the low-coordinate side.
 
 mod build;
-mod cut;
 mod error;
 mod faces;
-mod open;
+mod lay_up;
+mod open_voids;
 mod placed;
 mod plane;
+mod severed;
 mod slab;
-mod wood;
 
 pub use build::{Bond, Opening, build};
-pub use cut::{doubt, severed};
 pub use error::Error;
 pub use faces::Face;
-pub use open::open_voids;
-pub use placed::{Placed, Specimen};
-pub use plane::{BondLine, find, surface};
-pub use wood::{Layup, Pieces, lay_up};
+pub use lay_up::{Layup, Pieces, lay_up};
+pub use open_voids::open_voids;
+pub use placed::{PlacedVoxels, Specimen};
+pub use plane::{BondLine, find_bond_line, layers_to_surface};
+pub use severed::{severed, severed_doubt};

@@ -1,4 +1,4 @@
-//! Voxels of a material where they stand, and the specimen they make.
+//! Voxels of a material at their place, and specimens made of two materials.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use particle_file::{BitGrid, BitsRef, Block};
 
 use crate::Error;
 
-/// Voxels of one material in place: voxel (i, j, k) fills `origin + [i, j, k] * voxel` to
+/// Voxels of one material at their place: voxel (i, j, k) fills `origin + [i, j, k] * voxel` to
 /// `origin + [i+1, j+1, k+1] * voxel`.
 #[derive(Clone, Copy, Debug)]
-pub struct Placed<'a> {
+pub struct PlacedVoxels<'a> {
     /// Low corner, m.
     pub origin_m: [f64; 3],
     /// Edge of a voxel, m.
@@ -18,7 +18,7 @@ pub struct Placed<'a> {
     pub bits: BitsRef<'a>,
 }
 
-impl<'a> Placed<'a> {
+impl<'a> PlacedVoxels<'a> {
     /// The voxels of a block of a particle file.
     pub fn of_block((block, bits): (&Block, BitsRef<'a>)) -> Self {
         Self {
@@ -52,13 +52,13 @@ impl<'a> Placed<'a> {
 /// A bonded specimen: wood and adhesive of one stack.
 #[derive(Clone, Copy, Debug)]
 pub struct Specimen<'a> {
-    wood: Placed<'a>,
-    adhesive: Placed<'a>,
+    wood: PlacedVoxels<'a>,
+    adhesive: PlacedVoxels<'a>,
 }
 
 impl<'a> Specimen<'a> {
     /// A specimen from its two materials.
-    pub fn new(wood: Placed<'a>, adhesive: Placed<'a>) -> Result<Self, Error> {
+    pub fn new(wood: PlacedVoxels<'a>, adhesive: PlacedVoxels<'a>) -> Result<Self, Error> {
         let same = wood.bits.dims() == adhesive.bits.dims()
             && wood.origin_m == adhesive.origin_m
             && wood.voxel_m == adhesive.voxel_m;
@@ -70,12 +70,12 @@ impl<'a> Specimen<'a> {
     }
 
     /// The wood.
-    pub fn wood(&self) -> Placed<'a> {
+    pub fn wood(&self) -> PlacedVoxels<'a> {
         self.wood
     }
 
     /// The adhesive.
-    pub fn adhesive(&self) -> Placed<'a> {
+    pub fn adhesive(&self) -> PlacedVoxels<'a> {
         self.adhesive
     }
 }
@@ -86,7 +86,7 @@ pub(crate) fn layers(bits: BitsRef, axis: usize, layers: Range<usize>) -> BitGri
     crop(bits, &ranges)
 }
 
-/// The voxels before `dims` along each axis.
+/// The low corner of `bits` with dimensions `dims`.
 pub(crate) fn corner(bits: BitsRef, dims: [usize; 3]) -> BitGrid {
     crop(bits, &dims.map(|d| 0..d))
 }

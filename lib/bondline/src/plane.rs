@@ -1,26 +1,24 @@
-//! Where the bond plane of a specimen and the surfaces of its adherends are.
+//! Detection of the bond plane of a specimen and of the bond surfaces of its adherends.
 
 use units::Axis;
 
 use crate::{Error, Specimen};
 
-/// A layer counts as the surface of an adherend from this share of the wood fraction that is
-/// typical inside it. A cut face jumps from nothing to well above a quarter; a rough face
-/// (normal heights, deviation s) reaches a quarter 0.67 s outside its mean height, on both
-/// adherends alike, so that the middle between them stays where it is. Shares up to a half
-/// were tried on windows of the real specimen: a half misses faces whose first layer happens
-/// to be cut through lumens (rms error of the middle 0.8 voxels on 64 x 64 columns, a quarter
-/// 0.4).
+/// Least wood fraction of the surface layer of an adherend, over the typical fraction inside it. A cut face jumps from zero
+/// to well above a quarter. A rough face (normally distributed heights, deviation s) reaches a quarter 0.67 s outside its
+/// mean height; this is the same for both adherends, so the middle between them is not shifted. On windows of 64 x 64 columns
+/// of the real specimen the rms error of the middle is 0.4 voxels with a quarter, 0.8 with a half, which misses faces whose
+/// first layer is cut through lumens.
 const SURFACE_SHARE: f64 = 0.25;
 
-/// The bond lies across another axis if adhesive outweighs wood there by so many times the share of a layer, and by so
-/// much of one. In 67 specimens (a real one, synthetic ones of eight shapes) that is 74 to 100 % of a layer across the
-/// bond and 30 % at most across other axes; in 252 made worse (rough faces that touch, tilted by up to 17
-/// degrees) 25 % at least across the bond. None is refused by these.
-const PLAINER: f64 = 2.0;
-const PLAIN: f64 = 0.2;
+/// The bond lies across another axis if the contrast (adhesive less wood, as a fraction of a layer) is larger there: by
+/// this factor, and above [`LEAST_CONTRAST`]. In 67 specimens (one real, synthetic ones of eight shapes) the contrast is 0.74 to 1
+/// across the bond and 0.30 at most across other axes; in 252 with rough touching faces, tilted by up to 17 degrees, at
+/// least 0.25 across the bond. None of them is refused.
+const LARGER_CONTRAST: f64 = 2.0;
+const LEAST_CONTRAST: f64 = 0.2;
 
-/// How much of each layer normal to the bond is wood and adhesive.
+/// Wood and adhesive voxels in each layer normal to the bond.
 #[derive(Clone, Debug)]
 struct Profile {
     normal: Axis,
@@ -47,23 +45,23 @@ impl Profile {
         (self.adhesive[layer] as f64 - self.wood[layer] as f64) / self.area as f64
     }
 
-    /// The first layer in which adhesive most outweighs wood.
+    /// The first layer of largest contrast.
     fn seed(&self) -> usize {
         let by_contrast = |a: &usize, b: &usize| self.contrast(*a).total_cmp(&self.contrast(*b));
         (0..self.wood.len()).rev().max_by(by_contrast).unwrap_or(0)
     }
 }
 
-/// Where the bond line is, in voxels from the low face of the stack.
+/// Place of the bond line, in voxels from the low face of the stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BondLine {
-    /// The layer in which adhesive most outweighs wood.
+    /// Layer of largest contrast.
     pub seed: usize,
-    /// Adhesive less wood area fraction in that layer, -1 to 1.
+    /// Area fraction of adhesive less that of wood in that layer, -1 to 1.
     pub contrast: f64,
-    /// Face that bounds the bottom adherend: its bond surface.
+    /// Bond surface of the bottom adherend.
     pub bottom: usize,
-    /// Face that bounds the top adherend: its bond surface.
+    /// Bond surface of the top adherend.
     pub top: usize,
 }
 
@@ -77,20 +75,24 @@ impl BondLine {
 /// Finds the bond line of a specimen across `normal`.
 ///
 /// # Errors
-/// No adhesive; no wood on a side; no layer in which adhesive covers more than wood; a bond that plainly lies across
-/// another axis.
-pub fn find(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
+/// No adhesive; no wood on a side; no layer with more adhesive than wood; a bond that clearly lies across another axis.
+pub fn find_bond_line(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
     let profile = Profile::of(specimen, normal);
-    let found = along(&profile);
+    let found = bond_line_in(&profile);
     let contrast = profile.contrast(profile.seed());
     let others = Axis::ALL.into_iter().filter(|axis| *axis != normal);
     let fits = others
-        // No contrast is twice as much as a half.
-        .filter(|_| PLAINER * contrast < 1.0)
-        .filter_map(|axis| Some((axis, along(&Profile::of(specimen, axis)).ok()?.contrast)))
+        // No contrast exceeds 1, so none is twice as large as 0.5.
+        .filter(|_| LARGER_CONTRAST * contrast < 1.0)
+        .filter_map(|axis| {
+            Some((
+                axis,
+                bond_line_in(&Profile::of(specimen, axis)).ok()?.contrast,
+            ))
+        })
         .max_by(|a, b| a.1.total_cmp(&b.1));
     match fits {
-        Some((fits, best)) if best > PLAIN && best > PLAINER * contrast => {
+        Some((fits, best)) if best > LEAST_CONTRAST && best > LARGER_CONTRAST * contrast => {
             let [best, contrast] = [best, contrast].map(|share| 100.0 * share);
             Err(Error::new(format!(
                 "the bond lies across {fits}, not across {normal}: adhesive covers up to {best:.1} % of the area more than wood in layers normal to {fits}, and {contrast:.1} % in those normal to {normal}",
@@ -101,13 +103,11 @@ pub fn find(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
     }
 }
 
-/// Finds the bond line from the layers alone.
+/// Finds the bond line from the profile of one axis.
 ///
-/// The seed is the layer where the adhesive area most exceeds the wood area: a filled vessel
-/// never wins against the bond line, because wood surrounds it. From there, downwards and
-/// upwards, the first layer that holds a quarter of the wood fraction typical of that side
-/// is the bond surface of that adherend.
-fn along(profile: &Profile) -> Result<BondLine, Error> {
+/// The seed is the layer of largest contrast; a filled vessel is never chosen, because wood surrounds it. From the seed
+/// downwards and upwards, the first layer with a quarter of the typical wood fraction of that side is the bond surface.
+fn bond_line_in(profile: &Profile) -> Result<BondLine, Error> {
     if profile.adhesive.iter().all(|&n| n == 0) {
         return Err(Error::no_adhesive());
     }
@@ -115,7 +115,7 @@ fn along(profile: &Profile) -> Result<BondLine, Error> {
     let contrast = profile.contrast(seed);
     if contrast <= 0.0 {
         return Err(Error::new(format!(
-            "no layer normal to {} looks like a bond line: at best adhesive covers {:.1} % of a layer less than wood does, as where the bond is turned too far or lies across another axis",
+            "no layer normal to {} looks like a bond line: in the best one adhesive covers {:.1} % of a layer less than wood, as if the bond were tilted too far or lay across another axis",
             profile.normal,
             -100.0 * contrast
         ))
@@ -129,8 +129,8 @@ fn along(profile: &Profile) -> Result<BondLine, Error> {
     };
     let below: Vec<u64> = profile.wood[..seed].iter().rev().copied().collect();
     let above = &profile.wood[seed + 1..];
-    let bottom = seed - surface(&below).ok_or_else(|| no_wood("below"))?;
-    let top = seed + 1 + surface(above).ok_or_else(|| no_wood("above"))?;
+    let bottom = seed - layers_to_surface(&below).ok_or_else(|| no_wood("below"))?;
+    let top = seed + 1 + layers_to_surface(above).ok_or_else(|| no_wood("above"))?;
     Ok(BondLine {
         seed,
         contrast,
@@ -139,11 +139,11 @@ fn along(profile: &Profile) -> Result<BondLine, Error> {
     })
 }
 
-/// Layers in front of an adherend's bond surface, given its wood counts from the bond line
-/// outwards; `None` where there is no wood.
-pub fn surface(wood: &[u64]) -> Option<usize> {
+/// Number of layers in front of an adherend's bond surface. `wood` counts the wood voxels of its layers, from the bond line
+/// outwards; `None` without wood.
+pub fn layers_to_surface(wood: &[u64]) -> Option<usize> {
     let total: u64 = wood.iter().sum();
-    // Mean over wood voxels of their layer's count: empty layers and specks do not weigh.
+    // Mean of the counts weighted by themselves, so that empty layers and specks hardly count.
     let squares: f64 = wood.iter().map(|&n| n as f64 * n as f64).sum();
     let typical = squares / (total.max(1)) as f64;
     wood.iter()
@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     fn found(area: u64, wood: &[u64], adhesive: &[u64]) -> Result<BondLine, Error> {
-        along(&Profile {
+        bond_line_in(&Profile {
             normal: Axis::Y,
             area,
             wood: wood.to_vec(),

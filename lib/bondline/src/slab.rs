@@ -1,8 +1,8 @@
-//! How thick the slab of adhesive is, and where it lies.
+//! Thickness and place of the adhesive slab.
 
 use crate::Error;
 
-/// Thickness in whole cells of a slab over `area` columns with the volume of `adhesive` voxels.
+/// Thickness, in whole cells, of a slab with the volume of `adhesive` voxels over `area` columns.
 pub(crate) fn cells(
     adhesive: f64,
     area: u64,
@@ -40,8 +40,8 @@ pub(crate) fn cells(
     Ok(cells as u64)
 }
 
-/// Low face (m) of a slab of thickness `slab_m` in the middle of the opening at the bond plane,
-/// unless the wood of one side, `bottom` and `top` (m) away from the plane, is nearer.
+/// Low face (m) of a slab of thickness `slab_m`. The slab lies in the middle of the opening at the bond plane, or further to
+/// one side if the wood, `bottom` and `top` (m) away from the plane, leaves no room there.
 pub(crate) fn low_face(
     plane_m: f64,
     gap_m: f64,

@@ -1,7 +1,6 @@
-//! State of a press at one moment, beside penetration: wood wetted, lumens filled, and whether
-//! the bond line is filled.
+//! State of the bond line, beside penetration: wetted wood area, filled lumens, and whether the bond line is filled.
 
-use bondline::Placed;
+use bondline::PlacedVoxels;
 use particle_file::{BitGrid, BitsRef};
 use voxels::VolumeFractions;
 
@@ -9,22 +8,22 @@ use crate::{
     Adhesive, Datum, DepthLayer, Error, Reference, Sealed, Side, State, Wood, depth_profile,
 };
 
-/// Voxels of wood beside the bond line that count to it, on each side.
-const BESIDE: f64 = 2.0;
-/// Share of the room in the bond line below which it is starved.
+/// Voxels of wood on each side that count to the bond line.
+const VOXELS_BESIDE: f64 = 2.0;
+/// Filled fraction of the bond line below which it is starved.
 const STARVED: f64 = 0.5;
-/// Share of its open lumens from which a layer is at least half full.
-const HALF: f64 = 0.5;
-/// Share of the adhesive that left through open sides from which the bond line is squeezed out.
+/// Filled fraction of open lumens from which a layer counts to the half-filled depth.
+const HALF_FULL: f64 = 0.5;
+/// Fraction of the adhesive lost through open sides above which the bond line is squeezed out.
 const SQUEEZED_OUT: f64 = 0.05;
 
-/// Whether there is adhesive where the adherends meet.
+/// How well adhesive fills the bond line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Filling {
-    /// It fills at least half of the room outside wood.
+    /// Adhesive fills at least half of the void there.
     Filled,
-    /// It does not: what there was is in the wood.
+    /// Adhesive fills less than half: the rest is in the wood.
     Starved,
     /// More than a twentieth of the adhesive has left through open sides.
     SqueezedOut,
@@ -33,58 +32,57 @@ pub enum Filling {
 /// The bond line of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BondLine {
-    /// Distance of the adherends' bond surfaces, m. Rough ones stand apart when the bond is closed, by
-    /// what they stood apart in the specimen.
+    /// Distance between the bond surfaces of the adherends, m. Rough surfaces keep a distance when the bond is closed, as in
+    /// the specimen.
     pub surfaces_m: f64,
-    /// Mean share of the room outside wood that adhesive fills, over the layers between the bond
-    /// surfaces and two voxels into each adherend.
+    /// Filled fraction of the void: mean over the layers between the bond surfaces and two voxels into each adherend.
     pub filled: f64,
-    /// What that means.
+    /// The class of that fraction.
     pub filling: Filling,
-    /// Area of voxel faces between wood and adhesive of bottom, top and both, m2: a slanted or round
-    /// wall counts 4/pi of its area on average, by its steps.
+    /// Area of voxel faces between wood and adhesive on bottom, top and both, m2. The steps of a slanted or round wall count
+    /// 4/pi of its area on average.
     pub wetted_m2: [f64; 3],
-    /// Depth (m) from midway between the bond surfaces to which the open lumens are at least half full,
-    /// layer by layer, in bottom and top; the less of them for both.
+    /// Depth (m) from midway between the bond surfaces to which every layer of open lumens is at least half full: bottom, top,
+    /// and the smaller of the two.
     pub half_filled_m: [f64; 3],
 }
 
-/// The bond line of `state` with these `sealed` voids, of whose adhesive a share of `left` is gone through open sides:
-/// a volume does not tell, for walls take water and pressure compresses.
-pub fn bond_line(state: &State, left: f64, sealed: &Sealed) -> Result<BondLine, Error> {
+/// Measures the bond line of `state`. `lost_fraction` is the fraction of the adhesive that left through open sides; it cannot be
+/// derived from the volume, because walls take water and pressure compresses the liquid.
+pub fn bond_line(state: &State, lost_fraction: f64, sealed: &Sealed) -> Result<BondLine, Error> {
     let surfaces = Datum::find(Reference::Adherend, state)?;
     let surfaces_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);
     let middle = Datum::find(Reference::Mid, state)?;
-    let reach = 0.5 * surfaces_m + BESIDE * state.voxel_m;
+    let reach = 0.5 * surfaces_m + VOXELS_BESIDE * state.voxel_m;
     let layers = depth_profile(state, &middle, sealed)?;
-    let near: Vec<f64> = (layers.iter())
+    let fractions: Vec<f64> = (layers.iter())
         .filter(|layer| layer.depth_m.abs() < reach && layer.filled_void_fraction.is_finite())
         .map(|layer| layer.filled_void_fraction)
         .collect();
-    let filled = near.iter().sum::<f64>() / near.len() as f64;
-    let filling = if left > SQUEEZED_OUT {
+    let filled = fractions.iter().sum::<f64>() / fractions.len() as f64;
+    let filling = if lost_fraction > SQUEEZED_OUT {
         Filling::SqueezedOut
     } else if filled < STARVED {
         Filling::Starved
     } else {
         Filling::Filled
     };
-    let [bottom, top] = wetted(state, &middle);
+    let [bottom, top] = wetted_areas(state, &middle);
     Ok(BondLine {
         surfaces_m,
         filled,
         filling,
         wetted_m2: [bottom, top, bottom + top],
-        half_filled_m: half_filled(&layers, state.voxel_m),
+        half_filled_m: half_filled_depths(&layers, state.voxel_m),
     })
 }
 
-/// To which depth (m) of bottom, top and both layers are at least half full, from the bond line on; those
-/// without open lumens are passed by.
-fn half_filled(layers: &[DepthLayer], voxel_m: f64) -> [f64; 3] {
+/// Depth (m) to which the layers from the bond line on are at least half full: bottom, top, and the smaller of the two.
+/// Layers without open lumens are skipped.
+fn half_filled_depths(layers: &[DepthLayer], voxel_m: f64) -> [f64; 3] {
     let reach = |layers: &mut dyn Iterator<Item = &DepthLayer>| {
         let open = layers.filter(|layer| layer.filled_open_fraction.is_finite());
-        let full = open.take_while(|layer| layer.filled_open_fraction >= HALF);
+        let full = open.take_while(|layer| layer.filled_open_fraction >= HALF_FULL);
         full.last().map_or(0.0, |l| l.depth_m.abs() + 0.5 * voxel_m)
     };
     let top = layers.partition_point(|layer| layer.depth_m < 0.0);
@@ -94,7 +92,7 @@ fn half_filled(layers: &[DepthLayer], voxel_m: f64) -> [f64; 3] {
 }
 
 /// Area of the faces between wood and adhesive on the bottom and the top side, m2.
-fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
+fn wetted_areas(state: &State, middle: &Datum) -> [f64; 2] {
     let mut areas = [0.0; 2];
     let mut add = |side, area| match side {
         Side::Bottom => areas[0] += area,
@@ -103,14 +101,14 @@ fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
     match (state.wood, state.adhesive) {
         (Wood::Parted { bottom, top }, Adhesive::Points { position, volume }) => {
             for (side, wood) in [(Side::Bottom, bottom), (Side::Top, top)] {
-                let lattice = Lattice::new(state, wood, side);
+                let lattice = AdherendLattice::new(state, wood, side);
                 let liquid = lattice.liquid(position, volume);
                 let faces = lattice.faces(liquid.view());
                 add(side, faces.len() as f64 * wood.voxel_m.powi(2));
             }
         }
         (Wood::Whole(wood), Adhesive::Voxels(adhesive)) => {
-            let lattice = Lattice {
+            let lattice = AdherendLattice {
                 wood,
                 shift: [0; 3],
                 dims: wood.bits.dims(),
@@ -125,16 +123,16 @@ fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
     areas
 }
 
-/// The voxels of an adherend and one layer more on its bond surface.
-struct Lattice<'a> {
-    wood: Placed<'a>,
-    /// Voxels by which the wood's indices lie behind the lattice's.
+/// The voxels of an adherend, with one more layer at its bond surface.
+struct AdherendLattice<'a> {
+    wood: PlacedVoxels<'a>,
+    /// Offset of the wood in the lattice, voxels.
     shift: [usize; 3],
     dims: [usize; 3],
 }
 
-impl<'a> Lattice<'a> {
-    fn new(state: &State, wood: Placed<'a>, side: Side) -> Self {
+impl<'a> AdherendLattice<'a> {
+    fn new(state: &State, wood: PlacedVoxels<'a>, side: Side) -> Self {
         let n = state.normal.index();
         let (mut shift, mut dims) = ([0; 3], wood.bits.dims());
         dims[n] += 1;
@@ -179,7 +177,7 @@ impl<'a> Lattice<'a> {
         fractions.fullest()
     }
 
-    /// The wood's voxel at each face between wood and `liquid`.
+    /// The wood voxel at each face between wood and `liquid`.
     fn faces(&self, liquid: BitsRef) -> Vec<[usize; 3]> {
         let mut found = Vec::new();
         liquid.for_each(|index| {

@@ -1,19 +1,19 @@
-//! The case of a run without what goes with its cells.
+//! The case of a run without the keys that depend on the size of its cells, to compare runs.
 
 use toml::{Table, Value};
 use units::{Length, Quantity};
 
-/// Ends a line of a `resolved.toml` whose key was not given.
+/// End of a line with a default value in `resolved.toml`.
 const DEFAULT: &str = "# default";
-/// Keys that go with the size of cells.
+/// Keys that depend on the size of the cells.
 const OF_CELLS: [(&str, &[&str]); 2] = [
     ("grid", &["cell", "shape", "points_per_direction", "domain"]),
     ("integrator", &["cfl", "tolerance"]),
 ];
 
-/// The case of a run in cells of `cell_m` (m) by the text of its `resolved.toml`, without `[output]`, a time limit where it
-/// is a default or not asked for, and what goes with the size of the cells, lengths in metres; none where the text is no case.
-pub fn case_but_cells(resolved: &str, cell_m: f64, limited: bool) -> Option<Table> {
+/// The case of a run from the text of its `resolved.toml`, with lengths in metres and without `[output]` and keys that depend
+/// on the size of the cells, `cell_m` (m). A time limit is kept only if it was given and `limited`. `None` if the text is no TOML.
+pub fn case_without_cells(resolved: &str, cell_m: f64, limited: bool) -> Option<Table> {
     let limit = |line: &&str| line.starts_with("time_limit") && line.ends_with(DEFAULT);
     let lines = resolved.lines().filter(|line| !limit(line));
     let mut case: Table = lines.collect::<Vec<_>>().join("\n").parse().ok()?;
@@ -29,7 +29,7 @@ pub fn case_but_cells(resolved: &str, cell_m: f64, limited: bool) -> Option<Tabl
     Some(case)
 }
 
-/// Lengths as metres to five digits, of which more are rounding.
+/// Converts lengths to metres with five digits; further digits are rounding.
 fn in_metres(value: &mut Value, cell_m: f64) {
     match value {
         Value::String(text) => {

@@ -1,17 +1,17 @@
-//! Error by the size of the cells, from the same run in smaller ones.
+//! Discretisation error, from the same run with smaller cells.
 
 use crate::Penetration;
 
-/// A result carried on to cells of no size.
+/// A result extrapolated to zero cell size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extrapolated {
-    /// The result there.
+    /// Extrapolated value.
     pub value: f64,
-    /// How far it may be off: the difference between the two sizes.
+    /// Error bound: the difference between the results of the two cell sizes.
     pub error: f64,
 }
 
-/// Penetration of one side carried on to cells of no size, m.
+/// Penetration of one side extrapolated to zero cell size, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellError {
     /// Weighted penetration.
@@ -20,16 +20,15 @@ pub struct CellError {
     pub ep_m: Extrapolated,
 }
 
-/// Least ratio of the two sizes: below it the difference is no bound of what is left.
+/// Least ratio of the two cell sizes; below it the difference does not bound the remaining error.
 pub const LEAST_RATIO: f64 = 2.0;
 
-/// Richardson's extrapolation by a result in cells `ratio` times larger.
+/// Richardson extrapolation from results with cells of two sizes, the coarse ones `ratio` times larger.
 ///
-/// Two sizes do not show their order. It is taken as 1, at which value +- error reaches from the
-/// finer result to twice the difference beyond it: half of Roache's grid convergence index for two
-/// sizes, whose safety factor of 3 reaches to both sides (J. Fluids Eng. 116, 1994, 405-413). It
-/// holds for orders above 0.6; the value is never further from the finer result than that is from
-/// the coarser.
+/// Two sizes do not show the order of convergence. It is taken as 1; at a ratio of 2, value +- error then reaches from the
+/// finer result to twice the difference beyond it. This is half of Roache's grid convergence index for two sizes, whose
+/// safety factor of 3 reaches to both sides (J. Fluids Eng. 116, 1994, 405-413). The bound holds for orders above 0.6.
+/// For ratios of 2 or more the value is no further from the finer result than that is from the coarser.
 pub fn extrapolated(coarse: f64, fine: f64, ratio: f64) -> Extrapolated {
     Extrapolated {
         value: fine + (fine - coarse) / (ratio - 1.0),
@@ -37,9 +36,9 @@ pub fn extrapolated(coarse: f64, fine: f64, ratio: f64) -> Extrapolated {
     }
 }
 
-/// Bottom, top and total of a state carried on by those in cells `ratio` times smaller. A side is off by the mean of both
-/// sides' errors at least: that two sizes agree on one side alone is chance. So it is that the errors of the sides cancel in
-/// the total, which is off by what the mean of both sides is, their errors taken as independent, at least.
+/// Extrapolates bottom, top and total from a coarse state and one with cells `ratio` times smaller. The error of a side is at
+/// least the mean of both sides: agreement of the two cell sizes on one side alone is chance. The error of the total WP is at
+/// least that of the mean of two sides with independent errors: their cancellation in the total is chance too.
 pub fn cell_error(
     coarse: &[Penetration; 3],
     fine: &[Penetration; 3],
@@ -85,8 +84,8 @@ mod tests {
         }
     }
 
-    /// Sides that are off by 0.4 and -0.4 um: their mean by 0, but no better than 0.28 is known. One that is off by 0.4
-    /// beside one by 0: both by 0.2 at least, and a total of which that is half the diagonal. One without adhesive has no say.
+    /// Errors of 0.4 and -0.4 um on the sides cancel in the total, whose error is still 0.28. Errors of 0.4 and 0 make at least
+    /// 0.2 on both sides, and half of their diagonal in the total. A side without adhesive does not count.
     #[test]
     fn errors_that_cancel_or_vanish_by_chance_are_told() {
         for (coarse, wanted) in [
@@ -103,7 +102,7 @@ mod tests {
         }
     }
 
-    /// f(h) = 7 + h^p, of which the sizes 2 and 1 are known.
+    /// f(h) = 7 + h^p, known at h = 2 and 1.
     #[test]
     fn the_error_holds_from_order_0_6_on() {
         for order in [0.6, 0.73, 1.0, 1.5, 2.0, 4.0] {
@@ -114,7 +113,7 @@ mod tests {
         }
         assert_eq!(extrapolated(9.0, 8.0, 2.0).value, 7.0);
         assert_eq!(extrapolated(9.0, 8.0, 3.0).value, 7.5);
-        // A fall off in order beyond that is not seen with two sizes.
+        // Lower orders cannot be detected with two sizes.
         let slow = extrapolated(7.0 + 2_f64.powf(0.4), 8.0, 2.0);
         assert!((slow.value - 7.0).abs() > slow.error);
     }

@@ -1,12 +1,12 @@
 //! Agreement of a state with an experiment.
 
-use bondline::Placed;
+use bondline::PlacedVoxels;
 use particle_file::BitGrid;
 use voxels::VolumeFractions;
 
 use crate::{Adhesive, Datum, Error, Map, Reference, Side, State, Wood};
 
-/// How well a state agrees with an experiment on the same wood.
+/// Agreement of a state with an experiment on the same wood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
     /// Which side.
@@ -14,26 +14,25 @@ pub struct Agreement {
     /// Dice coefficient of the adhesive voxels, 2 |A and B| / (|A| + |B|), 0 to 1; NaN when
     /// both are empty.
     pub dice: f64,
-    /// Pearson correlation of the WP maps over the columns where both hold adhesive; NaN when
-    /// fewer than two do or one map is constant.
+    /// Pearson correlation of the WP maps over the columns with adhesive in both; NaN for fewer than two columns or a constant
+    /// map.
     pub map_correlation: f64,
 }
 
 /// Compares a state with the experiment that its wood comes from.
 ///
-/// Each side is compared in the frame of its adherend: liquid on the top side moves back with
-/// the top adherend by what remains of the gap, so that a lumen is compared with itself even
-/// when the bond did not close. What is then beyond the experiment's bond plane, i.e. the film
-/// that remains between parted adherends, is left out of the overlap; maps hold everything,
+/// Each side is compared in the frame of its adherend: liquid on the top side is moved back with the top adherend by the
+/// remaining gap, so that a lumen is compared with itself even if the bond did not close. Liquid that then lies beyond the
+/// experiment's bond plane, i.e. the film between parted adherends, is left out of the overlap. Maps contain all liquid,
 /// each about its own mid-plane. A bond trimmed to whole cells is compared over its own width.
 ///
 /// # Errors
-/// Two states that are not of the same voxels, and the errors of [`Datum::find`].
+/// States with different voxels, and the errors of [`Datum::find`].
 pub fn compare(state: &State, experiment: &State) -> Result<[Agreement; 3], Error> {
     let (Wood::Whole(wood), Adhesive::Voxels(adhesive)) = (experiment.wood, experiment.adhesive)
     else {
         return Err(Error::Usage(
-            "what it is to be compared with is no specimen: wood and adhesive voxels of one stack are needed".into(),
+            "the experiment to compare with is no specimen: wood and adhesive voxels of one stack are needed".into(),
         ));
     };
     same_voxels(state, experiment)?;
@@ -88,11 +87,11 @@ fn layers(state: &State) -> usize {
     state.wood_blocks().map(|wood| wood.bits.dims()[n]).sum()
 }
 
-/// Voxels that hold adhesive on `side` in both, in the frame of the adherend, and the sum of those in each.
+/// Number of voxels with adhesive on `side` in both, in the frame of the adherend, and the sum of the numbers in each.
 fn overlap(
     state: &State,
     ours: &Datum,
-    [wood, adhesive]: [Placed; 2],
+    [wood, adhesive]: [PlacedVoxels; 2],
     theirs: &Datum,
     side: Side,
 ) -> [u64; 2] {
@@ -106,7 +105,7 @@ fn overlap(
         let within = &mut reach[axis.index()];
         *within = columns.min(*within);
     }
-    // How far the adherend is from its place, m.
+    // Distance of the adherend from its place in the experiment, m.
     let parted = match (side, state.wood) {
         (Side::Top, Wood::Parted { bottom, top }) => top.origin_m[n] - bottom.max_m()[n],
         _ => 0.0,
@@ -134,7 +133,7 @@ fn overlap(
     [common, ours.count() + theirs.count()]
 }
 
-/// Pearson correlation of two maps over the columns of the first where both hold adhesive.
+/// Pearson correlation of two maps over the columns of the first with adhesive in both.
 fn correlation(a: &Map, b: &Map) -> f64 {
     let [columns, rows] = a.across.columns;
     let width = b.across.columns[0];
@@ -149,7 +148,7 @@ fn correlation(a: &Map, b: &Map) -> f64 {
         deviations.sum()
     };
     let (aa, bb) = (sum(|x, _| x * x), sum(|_, y| y * y));
-    // Single-precision places of material points make a constant map vary by 1e-6 voxels.
+    // Single-precision positions make a constant map vary by 1e-6 voxels.
     let constant = n * (1e-4 * a.across.width_m).powi(2);
     if aa > constant && bb > constant {
         sum(|x, y| x * y) / (aa * bb).sqrt()

@@ -1,21 +1,19 @@
-//! The plane or surfaces from which depth is counted.
+//! The plane or surfaces from which depth is measured.
 
-use bondline::surface;
+use bondline::layers_to_surface;
 use units::Axis;
 
 use crate::fit::{self, Plane, Tilt};
 use crate::penetration::Side;
 use crate::{Adhesive, Error, State, Wood};
 
-/// What penetration is measured from.
+/// The kind of reference from which penetration is measured.
 #[derive(Clone, Copy, Debug, PartialEq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Reference {
-    /// The level midway between the bond surfaces of the two adherends, where they are now.
-    /// In a scanned specimen this is the bond plane.
+    /// The level midway between the current bond surfaces of the two adherends; in a scanned specimen the bond plane.
     Mid,
-    /// The bond surface of the adherend on each side, where it is now; what lies between the
-    /// surfaces has not penetrated at all.
+    /// The current bond surface of the adherend on each side; adhesive between the surfaces has zero depth.
     Adherend,
     /// A given level, m.
     Plane(f64),
@@ -43,8 +41,7 @@ impl Datum {
     /// Finds `reference` in `state`.
     ///
     /// # Errors
-    /// No adhesive; no bond line to be found, or no wood: [`Reference::Plane`] is then the way out. A plane
-    /// outside the state.
+    /// No adhesive; no bond line or no wood, for which [`Reference::Plane`] helps; a plane outside the state.
     pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
         // Undamaged wood is a stack without adhesive.
         if matches!(state.adhesive, Adhesive::Voxels(voxels) if voxels.bits.count() == 0) {
@@ -82,31 +79,31 @@ impl Datum {
         }
     }
 
-    /// A sentence where it cuts through so much wood of a specimen that it is hardly a bond.
-    pub fn doubt(&self, state: &State) -> Option<String> {
+    /// A sentence if the datum cuts through so much wood of a specimen that it is hardly a bond plane.
+    pub fn severed_doubt(&self, state: &State) -> Option<String> {
         let (Wood::Whole(wood), Adhesive::Voxels(_)) = (state.wood, state.adhesive) else {
             return None;
         };
         let n = state.normal.index();
         let layers = (self.plane_m(Side::Total) - wood.origin_m[n]) / wood.voxel_m;
-        // Planes between voxels may be off by rounding.
+        // Allow for rounding of planes between voxels.
         let severed = bondline::severed(wood.bits, state.normal, (layers + 1e-6) as usize);
         let area: usize = (0..3)
             .filter(|a| *a != n)
             .map(|a| wood.bits.dims()[a])
             .product();
-        bondline::doubt(severed, area as u64)
+        bondline::severed_doubt(severed, area as u64)
     }
 
-    /// A sentence where a fitted plane may not run between the adherends: how it is turned, and why.
-    pub fn unsure(&self) -> Option<String> {
+    /// A sentence if a fitted plane may not run between the adherends, with its tilt and the reason.
+    pub fn fit_doubt(&self) -> Option<String> {
         match self {
             Datum::Level { .. } => None,
             Datum::Tilted(plane) => plane.doubt.clone(),
         }
     }
 
-    /// How a fitted plane is turned.
+    /// Tilt of a fitted plane.
     pub fn tilt(&self) -> Option<Tilt> {
         match self {
             Datum::Level { .. } => None,
@@ -122,8 +119,8 @@ impl Datum {
         }
     }
 
-    /// On which side of the bond `point` is, the centre of a voxel or what began as one, or on both where it is on the plane
-    /// between them, and its distance (m) from the zero of that side.
+    /// The side of the bond on which `point` lies (both if it lies on the plane between them), and its depth (m) there. `point`
+    /// is the centre of a voxel or a material point.
     pub fn depth(&self, point: [f64; 3], voxel_m: f64) -> (Side, f64) {
         match self {
             Datum::Level { normal, .. } => self.depth_of_level(point[normal.index()], voxel_m),
@@ -134,8 +131,7 @@ impl Datum {
         }
     }
 
-    /// [`Datum::depth`] of any point at this coordinate along the normal; of a tilted plane,
-    /// at the centre of the bond area.
+    /// [`Datum::depth`] at a coordinate along the normal; for a tilted plane, at the centre of the bond area.
     pub fn depth_of_level(&self, coordinate: f64, voxel_m: f64) -> (Side, f64) {
         let side = Side::of(coordinate - self.plane_m(Side::Total), voxel_m);
         let below = self.plane_m(Side::Bottom) - coordinate;
@@ -148,9 +144,8 @@ impl Datum {
         (side, beyond.max(0.0))
     }
 
-    /// The coordinate (m) along the normal that depths on `side` are measured from; for both
-    /// sides together the one that separates them; of a tilted plane, at the centre of the
-    /// bond area.
+    /// Coordinate (m) along the normal from which depths on `side` are measured; for both sides together, the one that
+    /// separates them; for a tilted plane, at the centre of the bond area.
     pub fn plane_m(&self, side: Side) -> f64 {
         match (self, side) {
             (Datum::Level { bottom, .. }, Side::Bottom) => *bottom,
@@ -176,7 +171,7 @@ fn bond_surfaces(state: &State) -> Result<[f64; 2], Error> {
                 return Err(no_wood("bottom and top adherend"));
             };
             let specimen = bondline::Specimen::new(wood, adhesive)?;
-            let line = bondline::find(&specimen, state.normal)?;
+            let line = bondline::find_bond_line(&specimen, state.normal)?;
             let at = |layers: usize| wood.origin_m[n] + layers as f64 * wood.voxel_m;
             Ok([at(line.bottom), at(line.top)])
         }
@@ -184,8 +179,8 @@ fn bond_surfaces(state: &State) -> Result<[f64; 2], Error> {
             let mut below = bottom.bits.counts_along(n);
             below.reverse();
             let above = top.bits.counts_along(n);
-            let bare_below = surface(&below).ok_or_else(|| no_wood("bottom adherend"))?;
-            let bare_above = surface(&above).ok_or_else(|| no_wood("top adherend"))?;
+            let bare_below = layers_to_surface(&below).ok_or_else(|| no_wood("bottom adherend"))?;
+            let bare_above = layers_to_surface(&above).ok_or_else(|| no_wood("top adherend"))?;
             Ok([
                 bottom.max_m()[n] - bare_below as f64 * bottom.voxel_m,
                 top.origin_m[n] + bare_above as f64 * top.voxel_m,

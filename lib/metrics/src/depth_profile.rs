@@ -1,31 +1,29 @@
 //! Adhesive against depth.
 
-use bondline::Placed;
+use bondline::PlacedVoxels;
 
 use crate::{Adhesive, Datum, Error, Sealed, Side, State, Wood};
 
-/// Adhesive in the layers of one voxel at a distance from the bond line.
+/// Adhesive in a layer one voxel thick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthLayer {
     /// Middle of the layer, m; negative in the bottom adherend.
     pub depth_m: f64,
     /// Volume of adhesive over that of the layer.
     pub adhesive_fraction: f64,
-    /// Volume of adhesive over that of the layer outside wood (Hass et al.); NaN where all
-    /// is wood.
+    /// Volume of adhesive over that of the void in the layer (Hass et al.); NaN without void.
     pub filled_void_fraction: f64,
-    /// Volume of adhesive over that of the layer outside wood and its sealed voids: the filled share of
-    /// its open lumens; NaN where there are none.
+    /// Filled fraction of the open lumens: volume of adhesive over that of the void without sealed voids; NaN without open
+    /// lumens.
     pub filled_open_fraction: f64,
 }
 
-/// The adhesive against depth, from the far side of the bottom to that of the top adherend, in wood with
-/// these `sealed` voids.
+/// The adhesive against depth, from the outer face of the bottom adherend to that of the top one.
 ///
-/// Layers are one voxel thick and begin at the reference; a voxel is spread evenly over itself along the normal, a material
-/// point over the height that its volume has on the area of a voxel, at most one, so that a reference between voxel faces and an
-/// adherend between them need no rounding, and points that fill voxels of a row that has closed in part fill its layer. With [`crate::Reference::Adherend`] what lies
-/// between the two bond surfaces is in no layer.
+/// Layers are one voxel thick and begin at the reference. The volume of a voxel is spread evenly over its height. That of a
+/// material point is spread over the height it has on the area of a voxel, at most one voxel; points in a partly closed
+/// row thus fill its layer. So neither the reference nor the adherends need to lie on voxel faces. With
+/// [`crate::Reference::Adherend`], adhesive between the two bond surfaces is in no layer.
 pub fn depth_profile(
     state: &State,
     datum: &Datum,
@@ -39,7 +37,7 @@ pub fn depth_profile(
     let (n, voxel) = (state.normal.index(), state.voxel_m);
     let [low, high] = extent(state);
     let zeros = [Side::Bottom, Side::Top].map(|side| datum.plane_m(side));
-    // Layers on both sides, each counted away from the bond line.
+    // Layers on both sides, counted from the bond line outwards.
     let mut sides = [zeros[0] - low, high - zeros[1]].map(|thickness| {
         let count = (thickness / voxel - 1e-6).ceil().max(0.0);
         vec![Layer::default(); count as usize]
@@ -61,7 +59,7 @@ pub fn depth_profile(
         }
     };
     add([low, high], 1.0, |l| &mut l.thickness);
-    let mut add_block = |block: Placed, counts: &[u64], what: fn(&mut Layer) -> &mut f64| {
+    let mut add_block = |block: PlacedVoxels, counts: &[u64], what: fn(&mut Layer) -> &mut f64| {
         let area = block.voxel_m * block.voxel_m / state.area_m2();
         for (layer, &count) in counts.iter().enumerate() {
             let at = block.origin_m[n] + layer as f64 * block.voxel_m;
@@ -99,7 +97,7 @@ pub fn depth_profile(
     Ok(below.chain(above).collect())
 }
 
-/// From the low face of the bottom to the high face of the top adherend, m.
+/// Low face of the bottom adherend and high face of the top one, m.
 fn extent(state: &State) -> [f64; 2] {
     let n = state.normal.index();
     match state.wood {
@@ -109,8 +107,7 @@ fn extent(state: &State) -> [f64; 2] {
     }
 }
 
-/// Thicknesses (m) that specimen, wood, its sealed voids and adhesive would have in a layer if spread over the
-/// whole bond area.
+/// Volumes of specimen, wood, sealed voids and adhesive in a layer, over the bond area (m).
 #[derive(Clone, Copy, Default)]
 struct Layer {
     thickness: f64,

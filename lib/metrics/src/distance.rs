@@ -2,24 +2,24 @@
 
 use rayon::prelude::*;
 
-/// The square of a distance when there is nothing to be near to.
-pub(crate) const FAR: u32 = u32::MAX;
+/// Squared distance if there is no target point.
+pub(crate) const NO_TARGET: u32 = u32::MAX;
 
-/// Points of a grid of voxels: their centres, or the corners between them.
+/// The centres of the voxels of a grid, or the corners between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lattice {
+pub(crate) struct PointLattice {
     pub(crate) dims: [usize; 3],
-    /// How far the first is beyond the first centre, half voxels.
+    /// Offset of the first point from the first centre, half voxels.
     shift: [usize; 3],
 }
 
-impl Lattice {
+impl PointLattice {
     pub(crate) fn centres(dims: [usize; 3]) -> Self {
         let shift = [0; 3];
         Self { dims, shift }
     }
 
-    /// The corners within the box; along an axis of one voxel there is no between.
+    /// The corners inside the box; along an axis of one voxel, the centres.
     pub(crate) fn corners(dims: [usize; 3]) -> Self {
         let shift = dims.map(|n| usize::from(n > 1));
         let dims = std::array::from_fn(|i| dims[i] - shift[i]);
@@ -27,40 +27,40 @@ impl Lattice {
     }
 }
 
-/// Squares of the distances (half voxels) from every point of a lattice, x fastest, to the nearest of the points of
-/// another that `near` names.
+/// Squared distances (half voxels) from every point of the lattice `from`, x fastest, to the nearest point of the lattice
+/// `to` for which `is_target` holds.
 ///
 /// Axis by axis, by lower envelopes of parabolas (Felzenszwalb and Huttenlocher 2012, Theory of Computing 8, 415-428).
-/// Squares beyond what fits, of grids longer than 30 000 voxels, are told as the largest that does.
+/// Squares that do not fit, in grids longer than 30 000 voxels, are capped.
 pub(crate) fn squared_distances(
-    to: Lattice,
-    near: impl Fn(usize) -> bool + Sync,
-    from: Lattice,
+    to: PointLattice,
+    is_target: impl Fn(usize) -> bool + Sync,
+    from: PointLattice,
 ) -> Vec<u32> {
     let points = 0..to.dims.iter().product::<usize>();
-    let of = |index| if near(index) { 0 } else { FAR };
+    let of = |index| if is_target(index) { 0 } else { NO_TARGET };
     let mut squares: Vec<u32> = points.into_par_iter().map(of).collect();
     let mut dims = to.dims;
-    // Three passes, each of which brings the last axis to the front, restore their order.
+    // Each pass moves the last axis to the front, so three passes restore the order.
     for axis in [2, 1, 0] {
         let (first, places) = ([to.shift[axis], from.shift[axis]], from.dims[axis]);
-        squares = along_last(&squares, dims, first, places);
+        squares = pass_along_last_axis(&squares, dims, first, places);
         dims = [places, dims[0], dims[1]];
     }
     squares
 }
 
-/// Carries squares on along the slowest axis, which becomes the fastest: from feet to `places`, the first of which are
-/// at `foot` and `place`, half voxels.
-fn along_last(
+/// One pass along the slowest axis, which becomes the fastest: from the feet of the parabolas to `places`. The first ones
+/// are at `foot` and `place`, half voxels.
+fn pass_along_last_axis(
     squares: &[u32],
     [nx, ny, nz]: [usize; 3],
     [foot, place]: [usize; 2],
     places: usize,
 ) -> Vec<u32> {
     let lines = nx * ny;
-    let mut carried = vec![FAR; lines * places];
-    let rows = carried.par_chunks_mut(places.max(1)).enumerate();
+    let mut passed = vec![NO_TARGET; lines * places];
+    let rows = passed.par_chunks_mut(places.max(1)).enumerate();
     rows.for_each_init(Envelope::default, |envelope, (line, out)| {
         envelope.clear();
         for z in 0..nz {
@@ -68,14 +68,14 @@ fn along_last(
         }
         envelope.read(place, out);
     });
-    carried
+    passed
 }
 
-/// The lower envelope of parabolas that stand at places along a line.
+/// The lower envelope of parabolas along a line.
 #[derive(Default)]
 struct Envelope {
     feet: Vec<(i64, i64)>,
-    /// From where each is the lowest.
+    /// Place from which each parabola is the lowest.
     from: Vec<f64>,
 }
 
@@ -86,7 +86,7 @@ impl Envelope {
     }
 
     fn add(&mut self, place: usize, height: u32) {
-        if height == FAR {
+        if height == NO_TARGET {
             return;
         }
         let (place, height) = (place as i64, i64::from(height));
@@ -104,7 +104,7 @@ impl Envelope {
         self.from.push(from);
     }
 
-    /// The envelope at every other place from `first` on.
+    /// Reads the envelope at every second place from `first` on.
     fn read(&self, first: usize, out: &mut [u32]) {
         let mut at = 0;
         for (i, square) in out.iter_mut().enumerate() {
@@ -116,7 +116,7 @@ impl Envelope {
                 return;
             };
             let found = (place - foot).pow(2) + height;
-            *square = found.min(i64::from(FAR - 1)) as u32;
+            *square = found.min(i64::from(NO_TARGET - 1)) as u32;
         }
     }
 }
@@ -127,8 +127,11 @@ mod tests {
 
     #[test]
     fn distances_are_those_to_the_nearest_of_all() {
-        let [centres, corners] = [Lattice::centres([7, 12, 9]), Lattice::corners([7, 12, 9])];
-        let place = |of: Lattice, i: usize| {
+        let [centres, corners] = [
+            PointLattice::centres([7, 12, 9]),
+            PointLattice::corners([7, 12, 9]),
+        ];
+        let place = |of: PointLattice, i: usize| {
             let [nx, ny, _] = of.dims;
             let index = [i % nx, i / nx % ny, i / (nx * ny)];
             [0, 1, 2].map(|a| 2 * index[a] + of.shift[a])
@@ -147,7 +150,7 @@ mod tests {
                 assert_eq!(Some(square as usize), near.iter().map(way).min());
             }
             let none = squared_distances(to, |_| false, from);
-            assert!(none.into_iter().all(|square| square == FAR));
+            assert!(none.into_iter().all(|square| square == NO_TARGET));
         }
     }
 }

@@ -1,12 +1,12 @@
-//! Why something cannot be measured.
+//! Errors of measurements.
 
-/// Why something cannot be measured; one sentence each, to be preceded by the file's name.
+/// Why a file cannot be measured: a sentence that follows the file's name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// The values in the file cannot be those of a bond line.
     #[error("{0}")]
     Data(String),
-    /// The file is sound but what was asked for does not apply to it.
+    /// The file is sound, but the requested measurement does not apply to it.
     #[error("{0}")]
     Usage(String),
 }

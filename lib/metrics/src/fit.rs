@@ -7,10 +7,10 @@ use units::Axis;
 use crate::State;
 use crate::openings::{Middle, Openings};
 
-/// Fits are repeated because the first split of wood into below and above is level; tilts that a box can hold settle in a few.
+/// Most rounds of fitting: the first plane that splits the wood is level, and any tilt that fits the box converges in a few.
 const ROUNDS: usize = 8;
-/// Least part of them of which a fit is trusted: where wood meets wood in fewer, lumens are taken for surfaces.
-const TRUSTED: f64 = 0.04;
+/// Least fraction of the open columns that a trusted fit uses. If wood meets wood in fewer, lumens are mistaken for surfaces.
+const LEAST_FRACTION: f64 = 0.04;
 
 /// A plane across the bond: coordinate along the normal = `level` + `slope` . (u - centre).
 #[derive(Clone, Debug, PartialEq)]
@@ -22,11 +22,11 @@ pub struct Plane {
     slope: [f64; 2],
     /// Standard errors of the slopes.
     error: [f64; 2],
-    /// A sentence where it may not run between the adherends.
+    /// A sentence if the plane may not run between the adherends.
     pub(crate) doubt: Option<String>,
 }
 
-/// By how many degrees a level plane is turned, right-handed, about x, y and z to rise as a fitted one.
+/// Tilt of a fitted plane: right-handed turns of a level plane about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tilt {
     /// The turns, degrees.
@@ -37,7 +37,7 @@ pub struct Tilt {
 
 impl fmt::Display for Tilt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // No turn has no sign.
+        // Adding 0 removes the sign of -0.
         let [x, y, z] = self.deg.map(|deg| (1e2 * deg).round() / 1e2 + 0.0);
         let [dx, dy, dz] = self.error_deg;
         write!(
@@ -53,7 +53,7 @@ impl Plane {
         self.level
     }
 
-    /// The unit vector normal to it that points up.
+    /// Upward unit normal of the plane.
     pub(crate) fn up(&self) -> [f64; 3] {
         let mut up = [0.0; 3];
         up[self.normal.index()] = self.slant().recip();
@@ -63,7 +63,7 @@ impl Plane {
         up
     }
 
-    /// How it is turned.
+    /// Tilt of the plane.
     pub fn tilt(&self) -> Tilt {
         let n = self.normal.index();
         let mut tilt = Tilt {
@@ -74,7 +74,7 @@ impl Plane {
             let along = axis.index();
             let sign = if (along + 1) % 3 == n { 1.0 } else { -1.0 };
             let degrees = sign * slope.atan().to_degrees();
-            // No rise has no sign, neither as zero nor as rounding.
+            // Rounding and adding 0 remove the sign of -0 and of tiny slopes.
             tilt.deg[3 - along - n] = (1e6 * degrees).round() / 1e6 + 0.0;
             tilt.error_deg[3 - along - n] = (error / (1.0 + slope * slope)).to_degrees();
         }
@@ -99,7 +99,7 @@ impl Plane {
             + self.slope[1] * (uv[1] - self.centre[1])
     }
 
-    /// The least-squares plane through `middles`; `None` where they do not extend along an axis with more than one column.
+    /// The least-squares plane through `middles`; `None` if they do not extend along an axis with more than one column.
     fn through(&self, middles: &[Middle], columns: [usize; 2]) -> Option<Self> {
         let (level, slope) = least_squares(middles, self.centre, columns)?;
         Some(Self {
@@ -109,10 +109,11 @@ impl Plane {
         })
     }
 
-    /// It with its standard errors, by the planes through the `middles` without one quarter of the bond area (jackknife):
-    /// surfaces are rough over many columns, whose scatter about the plane would tell errors ten times too small. Quarters are
-    /// the fewest parts that tell a plane's three numbers. Slopes of 200 crops of bondline-acer-240, 32 to 128 voxels
-    /// wide, are off by 1.5 to 2.5 such errors (rms). A `kept` start plane is no fit: its errors are those about their mean.
+    /// Adds standard errors by a jackknife: planes through the `middles` without one quarter of the bond area. Roughness is
+    /// correlated over many columns, so the scatter of columns about the plane would give errors ten times too small. Quarters
+    /// are the fewest parts that determine a plane's three numbers. Slopes of 200 crops of bondline-acer-240, 32 to 128 voxels
+    /// wide, are off by 1.5 to 2.5 such errors (rms). If the level start plane was `kept`, the errors are about the mean of the
+    /// jackknife planes, as it is no fit.
     fn with_errors(
         mut self,
         middles: &[Middle],
@@ -178,13 +179,13 @@ impl Plane {
             ))
         } else if unsure > 0.5 * opening {
             Some(format!(
-                "{said} and known to {:.1} um at a corner of the bond area, which is more than half of the {:.1} um between the adherends",
+                "{said} with an error of {:.1} um at a corner of the bond area, more than half of the {:.1} um between the adherends",
                 1e6 * unsure,
                 1e6 * opening
             ))
-        } else if part < TRUSTED {
+        } else if part < LEAST_FRACTION {
             Some(format!(
-                "{said} and hardly known: walls so thin meet across {:.1} % of the bond area alone, and lumens are taken for surfaces",
+                "{said} and hardly known: walls are so thin that they meet across only {:.1} % of the bond area, and lumens are mistaken for surfaces",
                 1e2 * part
             ))
         } else {
@@ -205,16 +206,14 @@ fn too_few(middles: &[Middle]) -> String {
 
 /// Least-squares plane through the middle of the opening between the adherends.
 ///
-/// In every column the opening reaches from the highest wood below the plane to the lowest
-/// wood above it. Columns that look into a cut lumen are wide open and say nothing about the
-/// surface, so only the narrowest of the open columns count: of wood of the volume fraction f a part f^2, where wood meets wood,
-/// at most a quarter (its level on bondline-acer-240 is 0.04 voxels off the true one; that of the narrower half 0.2).
-/// Starts from the level `start` and repeats with the fitted plane as long as the plane cuts no
-/// more wood than before: in small specimens with few surface columns a fit can otherwise walk
-/// off into the lumens.
+/// In every column the opening reaches from the highest wood below the plane to the lowest wood above it. Columns over a cut
+/// lumen are wide open and do not show the surface, so only the narrowest open columns count: the fraction f^2 in which wood
+/// meets wood, with f the volume fraction of wood, at most a quarter (on bondline-acer-240 its level is 0.04 voxels off;
+/// that of the narrower half 0.2). Starts from the level `start` and repeats with the fitted plane as long as it cuts no more
+/// wood than before: else, in small specimens with few surface columns, a fit can drift into the lumens.
 ///
 /// # Errors
-/// A sentence: too few open columns; a plane that leaves the specimen.
+/// A sentence: too few open columns, or a plane that leaves the specimen.
 pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, String> {
     let across = state.across();
     let extent = across.columns.map(|n| n as f64 * across.width_m);
@@ -247,7 +246,7 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, String> {
     plane.with_errors(&middles, state, (openings.part, opening), kept)
 }
 
-/// Level at `centre` and slopes of the least-squares plane. A direction of one of the `columns` (plane strain) has no slope.
+/// Level at `centre` and slopes of the least-squares plane; no slope along an axis of one column (plane strain).
 fn least_squares(
     points: &[Middle],
     centre: [f64; 2],

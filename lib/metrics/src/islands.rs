@@ -1,10 +1,10 @@
 //! Islands of adhesive in the slices of a stack.
 
-use bondline::Placed;
+use bondline::PlacedVoxels;
 use particle_file::BitGrid;
 
-/// Adhesive without what hangs together, by edges and corners of pixels, to fewer than `least` pixels of a slice normal to z.
-pub fn without_islands(adhesive: Placed, least: usize) -> BitGrid {
+/// Adhesive without islands: connected pixels, over edges and corners, that number fewer than `least` in a slice normal to z.
+pub fn without_islands(adhesive: PlacedVoxels, least: usize) -> BitGrid {
     let [nx, ny, nz] = adhesive.bits.dims();
     let mut kept = BitGrid::new([nx, ny, nz]);
     for z in 0..nz {
@@ -26,11 +26,11 @@ mod tests {
 
     #[test]
     fn islands_are_of_a_slice_and_hang_together_by_corners() {
-        // A diagonal of three in the first slice, a column of one pixel a slice, and one alone.
+        // A diagonal of three pixels in the first slice, a column of one pixel per slice, and a single pixel.
         let set =
             |x, y, z| (x == y && y < 3 && z == 0) || (x, y) == (6, 5) || (x, y, z) == (0, 5, 2);
         let bits = BitGrid::from_fn([8, 7, 3], set);
-        let adhesive = Placed {
+        let adhesive = PlacedVoxels {
             origin_m: [0.0; 3],
             voxel_m: 1e-6,
             bits: bits.view(),

@@ -2,7 +2,7 @@
 //! profiles, agreement with an experiment, and the shear rates of a run.
 //!
 //! A [`State`] is the common view of a specimen, of a bond before pressing and of a state of
-//! a run; a [`Datum`] is what distances are measured from; the rest are functions of both.
+//! a run; a [`Datum`] is the reference of depths; the rest are functions of both.
 //! Lengths are metres, and all results are independent of the number of threads.
 
 mod bond_line;
@@ -15,7 +15,7 @@ mod distance;
 mod error;
 mod fit;
 mod islands;
-mod level;
+mod levelling;
 mod map;
 mod openings;
 mod penetration;
@@ -27,7 +27,7 @@ mod state;
 pub mod table;
 
 pub use bond_line::{BondLine, Filling, bond_line};
-pub use case::case_but_cells;
+pub use case::case_without_cells;
 pub use cell_error::{CellError, Extrapolated, LEAST_RATIO, cell_error, extrapolated};
 pub use compare::{Agreement, compare};
 pub use datum::{Datum, Reference};
@@ -35,7 +35,7 @@ pub use depth_profile::{DepthLayer, depth_profile};
 pub use error::Error;
 pub use fit::Tilt;
 pub use islands::without_islands;
-pub use level::{Level, level};
+pub use levelling::{LevelledSpecimen, level};
 pub use map::Map;
 pub use penetration::{Penetration, Side, penetration};
 pub use pores::{PoreSize, pore_sizes};

@@ -1,13 +1,13 @@
-//! Openings between the adherends, by which a plane is fitted.
+//! Openings between the adherends, through which a plane is fitted.
 
 use crate::State;
 use crate::fit::Plane;
 use crate::state::Across;
 
-/// Largest part of the open columns that shows surfaces of both adherends.
-const SURFACES: f64 = 0.25;
-/// Voxels by which the widths of openings differ where they are the same: they are whole voxels apart, but for rounding.
-const SAME: f64 = 1e-3;
+/// Largest fraction of the open columns taken to show the surfaces of both adherends.
+const MOST_SURFACES: f64 = 0.25;
+/// Rounding of the widths of openings, which are whole voxels, voxels.
+const ROUNDING: f64 = 1e-3;
 
 /// A column's place across the bond and the middle of its opening, m.
 pub(crate) type Middle = ([f64; 2], f64);
@@ -20,7 +20,7 @@ pub(crate) struct Openings {
     above: Vec<f64>,
     /// Columns in which the plane runs between wood, the narrowest opening first.
     pub(crate) open: Vec<usize>,
-    /// Part of them that counts.
+    /// Fraction of the open columns that counts.
     pub(crate) part: f64,
 }
 
@@ -56,18 +56,18 @@ impl Openings {
             below,
             above,
             open,
-            part: (fraction * fraction).min(SURFACES),
+            part: (fraction * fraction).min(MOST_SURFACES),
         }
     }
 
-    /// Place and middle of the narrowest openings, and of those as narrow; the width of the widest of them.
+    /// Place and middle of the narrowest openings, ties included, and the width of the widest of them.
     pub(crate) fn narrowest(&self, across: &Across) -> (Vec<Middle>, f64) {
         let width = |c: usize| self.above[c] - self.below[c];
         let last = (self.part * self.open.len() as f64) as usize;
         let Some(&last) = self.open.get(last) else {
             return (Vec::new(), 0.0);
         };
-        let widest = width(last) + SAME * across.width_m;
+        let widest = width(last) + ROUNDING * across.width_m;
         let middles = self
             .open
             .iter()

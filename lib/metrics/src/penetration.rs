@@ -19,9 +19,9 @@ impl Side {
     /// All sides in the order of the table.
     pub const ALL: [Side; 3] = [Side::Bottom, Side::Top, Side::Total];
 
-    /// The side of a height (m) above the plane between the sides; both on that plane.
+    /// The side of a point at `height` (m) above the plane between the sides; both for a point on it.
     pub(crate) fn of(height: f64, voxel_m: f64) -> Side {
-        /// Voxels that are rounding: positions of points have single precision.
+        /// Rounding of single-precision positions, voxels.
         const ROUNDING: f64 = 1e-3;
         if height.abs() <= ROUNDING * voxel_m {
             Side::Total
@@ -32,7 +32,7 @@ impl Side {
         }
     }
 
-    /// Part of what lies on `side` that counts here: to each side, half of what lies on the plane between them.
+    /// Fraction of a volume on `side` that counts to this side: half if it lies on the plane between the sides.
     pub(crate) fn share(self, side: Side) -> f64 {
         match (self, side) {
             (Side::Total, _) => 1.0,
@@ -42,45 +42,45 @@ impl Side {
     }
 }
 
-/// How far adhesive went into one side of a bond line.
+/// Penetration into one side of a bond line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penetration {
     /// Which side.
     pub side: Side,
-    /// What depths are measured from, m along the normal.
+    /// Coordinate along the normal from which depths are measured, m.
     pub plane_m: f64,
     /// Weighted penetration WP = sqrt(sum V Y^2 / sum V), m (paper Eq. 6; Paris & Kamke 2015).
-    /// NaN without adhesive, as the depths are.
+    /// NaN without adhesive, like the depths.
     pub wp_m: f64,
     /// WP of a slab of the same total volume that has not penetrated, t / sqrt(12), m.
     pub slab_wp_m: f64,
-    /// Effective penetration EP: volume over the area of the bond, that of the tilted plane where depths are counted from one, m.
+    /// Effective penetration EP: volume over bond area (of the tilted plane, if depths are measured from one), m.
     pub ep_m: f64,
     /// Depth of the deepest voxel or material point, m.
     pub max_depth_m: f64,
-    /// Depth that 95 % of the volume does not exceed, m.
+    /// Depth above which 95 % of the volume lies, m.
     pub p95_depth_m: f64,
-    /// Depth that 99 % of the volume does not exceed, m.
+    /// Depth above which 99 % of the volume lies, m.
     pub p99_depth_m: f64,
     /// Volume of adhesive, m3.
     pub volume_m3: f64,
-    /// Voxels of adhesive; in a run its material points, each of which began as one voxel.
+    /// Number of adhesive voxels; in a run, of material points.
     pub voxels: u64,
 }
 
 /// Penetration of the bottom, the top and in total.
 ///
-/// Voxels count at their centres; those whose centre is on the plane between the sides count half to each. The square of
-/// the total WP is the volume-weighted mean of the squares of the sides.
+/// Voxels count at their centres; a centre on the plane between the sides counts half to each. The square of the total WP
+/// is the volume-weighted mean of the squares of the sides.
 pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
-    // Voxels and material points, millions of them, are visited again rather than listed.
+    // Millions of voxels or points are visited again rather than listed.
     let each = |visit: &mut dyn FnMut(Side, f64, f64)| {
         state.for_each_parcel(|point, volume| {
             let (side, depth) = datum.depth(point, state.voxel_m);
             visit(side, depth, volume);
         });
     };
-    let mut sums = [Sum::NONE; 3];
+    let mut sums = [SideSum::NONE; 3];
     each(&mut |on, depth, volume| {
         for (sum, side) in sums.iter_mut().zip(Side::ALL) {
             sum.add(side.share(on), depth, volume);
@@ -114,9 +114,9 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     })
 }
 
-/// What the parcels of a side add up to.
+/// Sums over the voxels or points of a side.
 #[derive(Clone, Copy)]
-struct Sum {
+struct SideSum {
     volume: f64,
     squares: f64,
     voxels: f64,
@@ -124,7 +124,7 @@ struct Sum {
     deepest: f64,
 }
 
-impl Sum {
+impl SideSum {
     const NONE: Self = Self {
         volume: 0.0,
         squares: 0.0,

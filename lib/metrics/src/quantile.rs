@@ -1,13 +1,13 @@
-//! Quantiles by weight.
+//! Weighted quantiles.
 
 use std::collections::BTreeMap;
 
-/// Even bins, of which only those that hold a quantile are listed.
+/// Number of equal bins; only values in bins that contain a quantile are sorted.
 const BINS: usize = 4096;
 
-/// For each of the ascending `shares` (0 to 1), the smallest value that at least this share of the weight does not
-/// exceed; NaN without values. `each` visits values from 0 to `largest` with their weights, `total` in all, twice, so
-/// that they need not be kept.
+/// For each of the ascending `shares` (0 to 1), the smallest value not exceeded by at least this share of the weight; NaN
+/// without values. `each` visits the values, from 0 to `largest`, with their weights, of sum `total`. It is called twice, so
+/// that the values need not be stored.
 pub(crate) fn quantiles<const N: usize>(
     largest: f64,
     total: f64,
@@ -18,7 +18,7 @@ pub(crate) fn quantiles<const N: usize>(
     let mut weights = vec![0.0; BINS];
     each(&mut |value, weight| weights[bin(value)] += weight);
     // Rounding of the running sum must not push a quantile to the next value.
-    let near = shares.map(|share| {
+    let found = shares.map(|share| {
         let goal = share * total * (1.0 - 1e-12);
         let (mut bin, mut below) = (0, 0.0);
         while bin < BINS - 1 && below + weights[bin] < goal {
@@ -28,23 +28,23 @@ pub(crate) fn quantiles<const N: usize>(
         (bin, below, goal)
     });
     let mut listed: BTreeMap<usize, Vec<(f64, f64)>> =
-        near.iter().map(|(bin, ..)| (*bin, Vec::new())).collect();
+        found.iter().map(|(bin, ..)| (*bin, Vec::new())).collect();
     each(&mut |value, weight| {
         if let Some(pairs) = listed.get_mut(&bin(value)) {
             pairs.push((value, weight));
         }
     });
     for pairs in listed.values_mut() {
-        // Equal pairs are alike, so the order is unique.
+        // Ties are equal pairs, so the result does not depend on the order.
         pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     }
-    near.map(|(bin, mut reached, goal)| {
+    found.map(|(bin, mut reached, goal)| {
         let pairs = &listed[&bin];
         let at = pairs.iter().find(|(_, weight)| {
             reached += weight;
             reached >= goal
         });
-        // Rounding may leave the sum of the bin below the goal.
+        // Rounding may leave the sum of the bin below the goal: take the last value.
         at.or(pairs.last()).map_or(f64::NAN, |(value, _)| *value)
     })
 }
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn bins_have_the_quantiles_of_all_values_in_order() {
-        // Even, crowded near zero, one far beyond all others, and all the same; weights from 1 to 3.
+        // Uniform, dense bins zero, with one outlier, and all equal; weights from 1 to 3.
         let spread = |i: i32, power| (f64::from(i * 7919 % 10_007) / 1e4).powi(power);
         let kinds: [&dyn Fn(i32) -> f64; 4] = [
             &|i| spread(i, 1),

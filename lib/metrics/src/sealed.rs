@@ -1,21 +1,21 @@
-//! The voids of wood that adhesive cannot get to.
+//! Sealed voids of wood, which adhesive cannot reach.
 
-use bondline::{Placed, open_voids};
+use bondline::{PlacedVoxels, open_voids};
 
 use crate::{Datum, Side, State, Wood};
 
-/// Void voxels in each layer of each piece of wood that no open path connects to the bond line. They
-/// go where the wood goes, so that those of the first state of a run are those of all.
+/// Number of sealed void voxels, without an open path to the bond line, in each layer of each piece of wood. They move with
+/// the wood, so one count serves all states of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sealed(Vec<Vec<u64>>);
 
 impl Sealed {
-    /// Those of `state`: of adherends apart by the layers they show each other, of wood in one piece by
-    /// the layer that `datum` is in.
+    /// The sealed voids of `state`. Open voids are those connected to the bond layers of parted adherends, or to the layer of
+    /// `datum` in wood of one piece.
     pub fn of(state: &State, datum: &Datum) -> Self {
         let n = state.normal.index();
-        let layers = |wood: Placed| wood.bits.dims()[n];
-        let at = |wood: Placed| {
+        let layers = |wood: PlacedVoxels| wood.bits.dims()[n];
+        let at = |wood: PlacedVoxels| {
             let level = (datum.plane_m(Side::Total) - wood.origin_m[n]) / wood.voxel_m;
             (level.max(0.0) as usize).min(layers(wood).saturating_sub(1))
         };
@@ -40,7 +40,7 @@ impl Sealed {
         Self(sealed.collect())
     }
 
-    /// In the order of [`State::wood_blocks`], layer by layer.
+    /// Counts by layer, for each of [`State::wood_blocks`].
     pub(crate) fn layers(&self) -> impl Iterator<Item = &[u64]> {
         self.0.iter().map(Vec::as_slice)
     }

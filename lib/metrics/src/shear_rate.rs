@@ -1,4 +1,4 @@
-//! Shear rates of a state, and of the paper's tube.
+//! Shear rates in a state, and at the wall of the paper's tube.
 
 use std::str::FromStr;
 
@@ -7,17 +7,17 @@ use particle_file::ParticleFile;
 use crate::Error;
 use crate::quantile::quantiles;
 
-/// What "shear rate" means.
+/// Definition of the shear rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convention {
-    /// 2 |dev D|, as the paper writes (section 2.2): sqrt(2) times the rheometer's.
+    /// 2 |dev D| of the paper (section 2.2), sqrt(2) times that of a rheometer.
     Paper,
-    /// sqrt(2 D:D): du/dy in simple shear, what a rheometer reports.
+    /// sqrt(2 D:D), which is du/dy in simple shear, as of a rheometer.
     Rheometer,
 }
 
 impl Convention {
-    /// What a rheometer's shear rate is multiplied by.
+    /// Factor on a rheometer's shear rate.
     pub fn factor(self) -> f64 {
         match self {
             Convention::Paper => std::f64::consts::SQRT_2,
@@ -45,7 +45,7 @@ impl FromStr for Convention {
 pub struct ShearRates {
     /// Time of the state, s.
     pub time_s: f64,
-    /// The rates (1/s) that [`ShearRates::SHARES`] of the volume do not exceed.
+    /// Rates (1/s) not exceeded by [`ShearRates::SHARES`] of the volume.
     pub quantiles: [f64; 7],
     /// Largest rate, 1/s.
     pub max: f64,
@@ -62,8 +62,8 @@ impl ShearRates {
     /// The distribution in a snapshot, in `convention`; `None`: as stored.
     ///
     /// # Errors
-    /// Missing or damaged columns, values that are no shear rates, and a snapshot that does
-    /// not say which convention it stores when another may be needed.
+    /// Missing or damaged columns, values that are no shear rates, and a snapshot without a stored convention if `convention`
+    /// is given.
     pub fn of_file(file: &ParticleFile, convention: Option<Convention>) -> Result<Self, Error> {
         let factor = match convention {
             None => 1.0,
@@ -82,7 +82,7 @@ impl ShearRates {
                 rates[i], volumes[i]
             )));
         }
-        // All of them where they are the same.
+        // In the worst case, with equal rates, all of them are sorted.
         let bytes = rates.len() * size_of::<(f64, f64)>();
         file.fits(bytes as u64, "the order of its shear rates")?;
         let parcels = pairs.map(|(&r, &v)| (factor * f64::from(r), f64::from(v)));

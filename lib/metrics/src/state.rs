@@ -1,6 +1,6 @@
-//! Wood and adhesive of a file as they are measured.
+//! Wood and adhesive of a file, for measurement.
 
-use bondline::{Placed, Specimen};
+use bondline::{PlacedVoxels, Specimen};
 use particle_file::{Kind, Material, ParticleFile, limits};
 use units::Axis;
 
@@ -26,16 +26,16 @@ pub struct State<'a> {
 /// The wood of a [`State`].
 #[derive(Clone, Copy, Debug)]
 pub enum Wood<'a> {
-    /// None, or none that is an adherend (verification scenes).
+    /// No adherends (verification scenes).
     None,
     /// Both adherends in one stack, as scanned.
-    Whole(Placed<'a>),
+    Whole(PlacedVoxels<'a>),
     /// The adherends, each at its current place.
     Parted {
         /// Low-coordinate side.
-        bottom: Placed<'a>,
+        bottom: PlacedVoxels<'a>,
         /// High-coordinate side.
-        top: Placed<'a>,
+        top: PlacedVoxels<'a>,
     },
 }
 
@@ -43,7 +43,7 @@ pub enum Wood<'a> {
 #[derive(Clone, Copy, Debug)]
 pub enum Adhesive<'a> {
     /// Full voxels.
-    Voxels(Placed<'a>),
+    Voxels(PlacedVoxels<'a>),
     /// Material points of a run.
     Points {
         /// Positions, m.
@@ -53,22 +53,21 @@ pub enum Adhesive<'a> {
     },
 }
 
-/// The two axes across the bond and the columns of voxels over the bond area.
+/// The columns of voxels over the bond area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Across {
     /// The two axes in the order x, y, z.
     pub axes: [Axis; 2],
     /// Low corner along them, m.
     pub min_m: [f64; 2],
-    /// Columns along them.
+    /// Number of columns along them.
     pub columns: [usize; 2],
     /// Width of a column, m.
     pub width_m: f64,
 }
 
 impl Across {
-    /// Index of the column that holds `point`; a point on or beyond a side of the box counts
-    /// to the column there.
+    /// Index of the column that contains `point`; a point on or beyond a side of the box counts to the outermost column.
     pub fn column(&self, point: [f64; 3]) -> usize {
         let [u, v] = [0, 1].map(|a| {
             let column = (point[self.axes[a].index()] - self.min_m[a]) / self.width_m;
@@ -85,10 +84,10 @@ impl Across {
 }
 
 impl<'a> State<'a> {
-    /// The state that a particle file holds.
+    /// The state in a particle file.
     ///
     /// # Errors
-    /// A checkpoint, damaged arrays, material points without a place or a volume.
+    /// A checkpoint, damaged arrays, material points without position or volume.
     pub fn of_file(file: &'a ParticleFile) -> Result<Self, Error> {
         let header = file.header();
         if header.kind == Kind::Checkpoint {
@@ -96,8 +95,8 @@ impl<'a> State<'a> {
                 "a checkpoint is for mpm-run --resume only; a specimen, bond or state is needed";
             return Err(Error::Usage(what.into()));
         }
-        worth_its_columns(file)?;
-        let block = |name| file.block_named(name).map(Placed::of_block);
+        check_columns(file)?;
+        let block = |name| file.block_named(name).map(PlacedVoxels::of_block);
         let has = |name: &str| header.blocks.iter().any(|b| b.name == name);
         let wood = if has("wood-bottom") && has("wood-top") {
             Wood::Parted {
@@ -111,7 +110,7 @@ impl<'a> State<'a> {
         };
         let mut materials = header.blocks.iter().map(|block| block.material);
         let adhesive = match materials.position(|material| material == Material::Adhesive) {
-            Some(index) => Adhesive::Voxels(Placed::of_block(file.block(index)?)),
+            Some(index) => Adhesive::Voxels(PlacedVoxels::of_block(file.block(index)?)),
             None => {
                 let (position, volume) = file.liquid()?;
                 Adhesive::Points { position, volume }
@@ -164,8 +163,7 @@ impl<'a> State<'a> {
         (self.box_max_m[u] - self.box_min_m[u]) * (self.box_max_m[v] - self.box_min_m[v])
     }
 
-    /// Calls `visit` with place (m) and volume (m3) of every material point, or of every
-    /// voxel at its centre, in storage order.
+    /// Calls `visit` with position (m) and volume (m3) of every material point or adhesive voxel, in storage order.
     pub fn for_each_parcel(&self, mut visit: impl FnMut([f64; 3], f64)) {
         match self.adhesive {
             Adhesive::Points { position, volume } => position
@@ -182,7 +180,7 @@ impl<'a> State<'a> {
     }
 
     /// The wood, block by block.
-    pub fn wood_blocks(&self) -> impl Iterator<Item = Placed<'a>> + use<'a> {
+    pub fn wood_blocks(&self) -> impl Iterator<Item = PlacedVoxels<'a>> + use<'a> {
         let blocks = match self.wood {
             Wood::None => [None, None],
             Wood::Whole(wood) => [Some(wood), None],
@@ -192,17 +190,14 @@ impl<'a> State<'a> {
     }
 }
 
-/// Refuses a file whose box has more columns across the bond than it is worth; the layers along
-/// the normal are bounded for every file.
-fn worth_its_columns(file: &ParticleFile) -> Result<(), Error> {
-    /// Bytes of a row of the map, the largest thing made of a column; half of them stay in memory.
+/// Refuses a file whose box has too many columns across the bond for the size of the file; the number of layers along the
+/// normal is limited for every file.
+fn check_columns(file: &ParticleFile) -> Result<(), Error> {
+    /// Bytes of a row of the map, the largest output per column; half of them are in memory.
     const ROW: u64 = 64;
     let span = file.header().span();
     let columns = limits::volume(span) / span[usize::from(file.header().normal)].max(1);
-    let (bytes, what) = (
-        columns.saturating_mul(ROW),
-        "what is measured in each column",
-    );
+    let (bytes, what) = (columns.saturating_mul(ROW), "the measures of each column");
     file.is_worth(bytes, what)?;
     Ok(file.fits(bytes / 2, what)?)
 }

@@ -6,7 +6,7 @@ use metrics::{BondLine, Datum, DepthLayer, Filling, Reference, Sealed, State, de
 use specimens::{Run, Stack, VOXEL, close, slab};
 use units::Axis;
 
-/// Grooves half as wide as their distance, wood up to 30 and from 36; adhesive in `filled` layers.
+/// Wood below 30 and from 36 on with grooves over half of its width; adhesive in the layers `filled`.
 fn grooved(filled: std::ops::Range<usize>) -> Stack {
     Stack::new([32, 66, 16], move |x, y, _| {
         let wood = x % 8 >= 4 && !(30..36).contains(&y);
@@ -28,9 +28,9 @@ fn line_of(state: &State, left: f64) -> BondLine {
     metrics::bond_line(state, left, &Sealed::of(state, &middle)).unwrap()
 }
 
-/// Faces of grooves so deep.
+/// Wetted faces with grooves filled to `deep` layers.
 fn wets(line: &BondLine, bottom: usize, top: usize) {
-    // 16 columns of wood in 16 rows on the bond surface, and 7 walls of grooves that are `deep`.
+    // 16 columns of wood in 16 rows on the bond surface, and 7 walls of grooves `deep` layers deep.
     let faces = |deep: usize| (16 * 16 + 7 * deep * 16) as f64 * VOXEL.powi(2);
     let (bottom, top) = (faces(bottom), faces(top));
     for (found, wanted) in line.wetted_m2.into_iter().zip([bottom, top, bottom + top]) {
@@ -97,7 +97,7 @@ fn a_depth_profile_is_the_share_of_layer_and_void() {
         let off = layer.filled_void_fraction - filled;
         assert!(off.abs() < 1e-9, "{layer:?}");
     }
-    // Points that fill voxels of rows nine tenths as high, between surfaces as much nearer, fill their layers.
+    // Points in voxels compressed to nine tenths of their height, between surfaces as much closer, fill their layers.
     let mut run = Run::new(&stack, 25, -0.6 * VOXEL);
     for at in 0..6 * 32 {
         let [x, row, z] = [at % 8, at / 32, at / 8 % 4].map(|i| i as f64 + 0.5);
@@ -108,7 +108,7 @@ fn a_depth_profile_is_the_share_of_layer_and_void() {
     for layer in layers.iter().filter(|l| l.depth_m.abs() < 2.0 * VOXEL) {
         assert!((layer.filled_void_fraction - 1.0).abs() < 1e-5, "{layer:?}");
     }
-    // From the adherends the 6 layers between them are in no layer.
+    // Measured from the adherends, the 6 layers between them are in no layer of the profile.
     let layers = profile(&state, Reference::Adherend);
     assert_eq!(layers.len(), 44);
     assert!(layers.iter().all(|l| l.adhesive_fraction < 0.51));

@@ -40,7 +40,7 @@ fn a_slab_has_not_penetrated() {
         );
         assert!(close(total.plane_m, (30.0 + 0.5 * t) * VOXEL, 1e-12));
         assert!((total.max_depth_m - 0.5 * (t - 1.0) * VOXEL).abs() < 1e-12);
-        // Measured from the adherends, what lies between has no depth.
+        // Measured from the adherends, adhesive between them has no depth.
         let from_wood = measured(&stack.state(normal), Reference::Adherend);
         assert_eq!(from_wood[2].wp_m, 0.0);
         assert!(close(from_wood[0].plane_m, 30.0 * VOXEL, 1e-12));
@@ -90,7 +90,7 @@ fn a_speck_is_left_out_at_99_percent_and_nothing_has_no_depth() {
     assert!(close(top.wp_m, total.wp_m, 1e-12));
 }
 
-/// The same points in a closed and in an open bond: the open one is measured from where the middle is now.
+/// The same points in a closed and in an open bond; the open bond is measured from its current middle.
 #[test]
 fn the_middle_of_a_run_moves_with_half_the_gap() {
     for gap in [0.0, 7.3 * VOXEL] {

@@ -1,5 +1,5 @@
-//! Agreement in closed form: every column of a state and of its experiment holds adhesive to a
-//! known number of layers on each side of the bond plane.
+//! Agreement against closed forms: in every column of state and experiment, adhesive fills a known number of layers on each
+//! side of the bond plane.
 
 mod specimens;
 
@@ -30,8 +30,7 @@ fn ours(x: usize, z: usize) -> [usize; 2] {
     }
 }
 
-/// What `letter` is at a place when adhesive reaches to `depths`, and wood begins beyond the
-/// film but in grooves ten layers later.
+/// The material at a voxel, with adhesive to `depths`. Wood begins beyond the film, in grooves ten layers later.
 fn letter(depths: Depths, x: usize, y: usize, z: usize) -> char {
     let below = y < PLANE;
     let layer = if below { PLANE - 1 - y } else { y - PLANE };
@@ -112,7 +111,7 @@ fn against_theirs(state: &State) -> [Agreement; 3] {
 #[test]
 fn dice_and_correlation_are_those_of_the_counted_columns() {
     let wanted = expected(ours, theirs, WHOLE, 0.0);
-    // The sides differ, so that none stands for another.
+    // The sides differ, so that a mix-up would be noticed.
     assert!(wanted[0][0] < 0.9 && (wanted[0][0] - wanted[1][0]).abs() > 0.01);
     assert_agrees(
         &against_theirs(&run(ours, WHOLE, 0.0).state()),
@@ -120,7 +119,7 @@ fn dice_and_correlation_are_those_of_the_counted_columns() {
         1e-12,
     );
     assert_agrees(&against_theirs(&stack(ours).state(Axis::Y)), wanted, 1e-12);
-    // Some columns of ours are empty below.
+    // Some columns of the state are empty below.
     let with_holes: Depths = |x, z| [if x == 4 { 0 } else { ours(x, z)[0] }, ours(x, z)[1]];
     let wanted = expected(with_holes, theirs, WHOLE, 0.0);
     assert_agrees(
@@ -134,7 +133,7 @@ fn dice_and_correlation_are_those_of_the_counted_columns() {
 
 #[test]
 fn a_parted_trimmed_bond_is_compared_in_the_frames_of_its_adherends() {
-    // Between voxels single-precision places bring parts of a voxel to the next.
+    // Single-precision positions between voxels move parts of a voxel to the next one.
     for (gap, off) in [(4.0, 1e-12), (3.37, 1e-4)] {
         let wanted = expected(ours, theirs, [9, 7], gap);
         assert_agrees(
@@ -145,7 +144,7 @@ fn a_parted_trimmed_bond_is_compared_in_the_frames_of_its_adherends() {
     }
     let mut parted = run(ours, [9, 7], 4.0);
     let bare = against_theirs(&parted.state());
-    // A film in the gap has no voxels in the experiment: the overlap does not know it.
+    // A film in the gap has no voxels in the experiment and does not count to the overlap.
     for y in PLANE..PLANE + 4 {
         parted.add([3.5, y as f64 + 0.5, 2.5]);
     }
@@ -177,7 +176,7 @@ fn a_constant_map_correlates_with_nothing() {
 
 #[test]
 fn a_side_without_adhesive_agrees_in_nothing() {
-    // Nothing above the plane: the surfaces are still found in the experiment's wood.
+    // No adhesive above the plane; the surfaces are still found in the experiment's wood.
     let mut bare = run(|x, z| [ours(x, z)[0], 0], WHOLE, 0.0);
     assert_eq!(against_theirs(&bare.state())[1].dice, 0.0);
     bare.position.clear();

@@ -1,4 +1,4 @@
-//! The plane of a bond: fitted, turned level, or refused and doubted where there is none.
+//! Fitted planes of bonds: fits, levelling, and planes that are refused or doubted.
 
 mod specimens;
 
@@ -8,7 +8,7 @@ use specimens::{Stack, VOXEL, close, placed};
 use units::Axis;
 
 const SLOPE: [f64; 2] = [0.125, -0.09375];
-/// Of a gap of 8 voxels at these slopes: 8 / sqrt(1 + 0.125^2 + 0.09375^2) voxels.
+/// Thickness of a gap of 8 voxels at these slopes: 8 / sqrt(1 + 0.125^2 + 0.09375^2) voxels.
 const THICKNESS: f64 = 7.904096270008;
 
 fn total(state: &State, reference: Reference) -> Penetration {
@@ -60,14 +60,14 @@ fn a_tilted_bond_line_is_found_by_the_fit() {
     assert!(level > 1.5 * exact);
 }
 
-/// Earlywood: walls of two voxels around lumens of ten, so that wood meets wood across the bond in a tenth of its area.
+/// Earlywood: walls two voxels thick around lumens of ten, so that wood meets wood across the bond in a tenth of the area.
 #[test]
 fn a_tilt_is_found_between_thin_walls() {
     for slope in [0.0, 0.0875, -0.0875] {
         let middle = move |x: usize| 50.0 + slope * (x as f64 + 0.5 - 36.0);
         let stack = Stack::new([72, 100, 24], move |x, y, z| {
             let height = y as f64 + 0.5 - middle(x);
-            // Cells stand on the bond, which cuts those of each side elsewhere.
+            // Wood cells stand on the bond and are offset on the two sides.
             let across = if height > 0.0 { x + 5 } else { x };
             let along = (height.abs() + 7.0) as usize;
             let lumen = across % 12 >= 2 && along % 24 >= 2 && z % 12 >= 1;
@@ -88,24 +88,24 @@ fn boxed(letter: fn([usize; 3]) -> char) -> Stack {
     Stack::new([12, 60, 12], move |x, y, z| letter([x, y, z]))
 }
 
-/// Why the plane of a stack is not turned level.
+/// The reason why a stack is not levelled.
 fn not_levelled(stack: &Stack) -> String {
     let specimen = Specimen::new(placed(&stack.wood), placed(&stack.adhesive)).unwrap();
     metrics::level(&specimen, Axis::Y).err().unwrap()
 }
 
-/// What is said of a plane that gives numbers all the same, but is not turned level.
+/// The doubt about a plane that is fitted but not levelled.
 fn doubted(stack: &Stack) -> String {
     let state = stack.state(Axis::Y);
     let datum = Datum::find(Reference::Fit, &state).unwrap();
     assert!(penetration(&state, &datum)[2].wp_m > 0.0);
-    let doubt = datum.unsure().unwrap();
+    let doubt = datum.fit_doubt().unwrap();
     assert_eq!(doubt, not_levelled(stack));
     assert!(doubt.contains(&datum.tilt().unwrap().to_string()));
     doubt
 }
 
-/// A fit to surfaces that show in a part of the area, or that bend, told a tilt of any size.
+/// Surfaces that show in a part of the area, or that bend, do not determine a tilt.
 #[test]
 fn a_plane_that_is_not_known_is_refused() {
     // Wood above four columns of one quarter alone.
@@ -134,7 +134,7 @@ fn a_plane_that_is_not_known_is_refused() {
         _ => 'w',
     }));
     assert!(bare.contains("a quarter of the bond area"), "{bare}");
-    // Walls of one voxel: of 24 fits in rough ones every twelve, 16 told no doubt, and tilts up to 5 degrees off.
+    // Walls of one voxel; without this doubt, fits to rough ones twelve voxels apart were up to 5 degrees off.
     let thin = doubted(&boxed(|[x, y, _]| match y {
         28..32 => 'a',
         _ if x % 6 == 0 => 'w',
@@ -143,8 +143,8 @@ fn a_plane_that_is_not_known_is_refused() {
     assert!(thin.contains("2.4 % of the bond area"), "{thin}");
 }
 
-/// A step between the narrowest columns, along which a plane would run into the wood beside them. How far the level plane is
-/// from those fits is no scatter: it told one of 74 degrees.
+/// A step between the narrowest columns, along which a plane would cut into the wood beside them. The level plane is kept; its
+/// distance from the fits is no error of it.
 #[test]
 fn a_level_plane_that_is_kept_is_no_fit() {
     let stack = boxed(|[x, y, _]| match (x, y) {
@@ -160,7 +160,7 @@ fn a_level_plane_that_is_kept_is_no_fit() {
     assert!(tilt.error_deg.iter().all(|e| *e < 5.0), "{tilt}");
 }
 
-/// Turned, it has the thickness and depths that the fit tells, and no tilt; so for any bond normal.
+/// A levelled specimen has no tilt, and the thickness and depths of the fit, for any bond normal.
 #[test]
 fn a_tilted_specimen_is_turned_level() {
     let exact = tilted();
@@ -188,7 +188,7 @@ fn a_tilted_specimen_is_turned_level() {
         assert!(tilt.iter().all(|t| t.abs() < 0.2), "{normal}: {tilt:?}");
         let found = total(&state, Reference::Mid);
         assert!(close(found.ep_m, THICKNESS * VOXEL, 0.01), "{normal}");
-        // Voxels whose centres are in and out by rounding stand out of a slab.
+        // Rounding of voxel centres makes the faces of the slab rough.
         assert!(close(found.wp_m, THICKNESS / 12_f64.sqrt() * VOXEL, 0.03));
         let again = Specimen::new(placed(&turned.wood), placed(&turned.adhesive)).unwrap();
         let dims = metrics::level(&again, normal).unwrap().wood.dims();
@@ -208,7 +208,7 @@ fn stepped(low: usize, layers: usize) -> Stack {
     })
 }
 
-/// Widths of gaps as wide were told apart by their rounding, which took one half of the columns or the other.
+/// Gaps of equal width count alike, whatever the rounding of their widths.
 #[test]
 fn gaps_that_are_as_wide_count_alike_wherever_they_are() {
     for low in 15..40 {
@@ -249,7 +249,9 @@ fn a_plane_through_wood_is_doubted() {
     let stack = across_x();
     let doubt = |reference, normal| {
         let state = stack.state(normal);
-        Datum::find(reference, &state).unwrap().doubt(&state)
+        Datum::find(reference, &state)
+            .unwrap()
+            .severed_doubt(&state)
     };
     assert_eq!(doubt(Reference::Mid, Axis::X), None);
     let plane = |layers: f64| Reference::Plane(layers * VOXEL);

@@ -6,7 +6,7 @@ use metrics::{PoreSize, pore_sizes};
 use particle_file::BitGrid;
 use specimens::{VOXEL, placed};
 
-/// Sizes in voxels around wood that is everywhere but where `open` says so.
+/// Pore sizes (voxels) in wood that is solid except where `open` holds.
 fn sizes(dims: [usize; 3], open: impl Fn([usize; 3]) -> bool + Sync) -> Vec<PoreSize> {
     let wood = BitGrid::from_fn(dims, |x, y, z| !open([x, y, z]));
     let mut found = pore_sizes(placed(&wood), |_| ());
@@ -18,7 +18,7 @@ fn mean(sizes: &[PoreSize]) -> f64 {
     sizes.iter().map(|size| size.share * size.diameter_m).sum()
 }
 
-/// The same in a box with its axes exchanged in turn, and mirrored.
+/// The same, also checked with exchanged axes and mirrored.
 fn alike(dims: [usize; 3], open: impl Fn([usize; 3]) -> bool + Sync) -> Vec<PoreSize> {
     let found = sizes(dims, &open);
     for turn in 1..3 {
@@ -39,7 +39,7 @@ fn a_slit_is_as_wide_as_it_is() {
         let found = alike([9, width + 7, 12], |[_, y, _]| (3..3 + width).contains(&y));
         let wide = found.last().unwrap();
         let off = wide.diameter_m - 0.5 - width as f64;
-        // From twenty voxels on sizes go by a fortieth.
+        // From twenty voxels on sizes are resolved to a fortieth.
         let step = (width as f64 - 20.0).max(0.0) / 40.0;
         assert!(off.abs() <= 1e-9 + 0.5 * step, "{width}: {off}");
         assert_eq!(wide.share, 1.0, "{width}");
@@ -69,7 +69,8 @@ fn a_round_tube_has_one_diameter() {
     }
 }
 
-/// In a duct of edge a the largest ball leaves out the corners, (1 - pi/4) a^2; a smaller one of diameter d as much of d^2.
+/// In a duct of edge a the largest ball does not fill the corners, (1 - pi/4) a^2; a smaller ball of diameter d leaves
+/// (1 - pi/4) d^2.
 #[test]
 fn a_square_duct_has_small_corners() {
     for edge in [12_usize, 31] {

@@ -18,15 +18,15 @@ pub enum Motion {
 pub struct RigidBody {
     /// Name for messages and outputs, e.g. "wood-bottom".
     pub name: String,
-    /// Its parts; a box is a block of one voxel.
+    /// Blocks of the body; a box is a block of one voxel.
     pub blocks: Vec<VoxelBlock>,
-    /// How it moves.
+    /// Motion of the body.
     pub motion: Motion,
 }
 
 impl RigidBody {
-    /// Whether `point` (m), given in the body's own frame (displacement subtracted), is in
-    /// the body. Lower faces belong to it, upper faces do not.
+    /// Whether `point` (m), in the body's own frame (displacement subtracted), lies in the body. Lower faces belong to it,
+    /// upper faces do not.
     pub fn contains(&self, point: [f64; 3]) -> bool {
         self.blocks.iter().any(|block| block.contains(point))
     }
@@ -42,7 +42,7 @@ pub struct VoxelBlock {
     voxel: [f64; 3],
     dims: [usize; 3],
     words_per_row: usize,
-    /// Shared by the clones of a block, of which a run has several.
+    /// Shared by the several clones of a block in a run.
     bits: Arc<[u64]>,
 }
 
@@ -50,7 +50,7 @@ impl VoxelBlock {
     /// A block from its bits: `dims[1] * dims[2]` rows of `ceil(dims[0] / 64)` words.
     ///
     /// # Panics
-    /// When `bits` has another length; readers of files check before calling.
+    /// If `bits` has another length; readers of files check it before.
     pub fn new(origin: [f64; 3], voxel: [f64; 3], dims: [usize; 3], bits: Vec<u64>) -> Self {
         let words_per_row = dims[0].div_ceil(64);
         assert_eq!(
@@ -113,7 +113,7 @@ impl VoxelBlock {
         std::array::from_fn(|a| self.origin[a] + self.dims[a] as f64 * self.voxel[a])
     }
 
-    /// Whether voxel (i, j, k) is solid; outside the block nothing is.
+    /// Whether voxel (i, j, k) is solid; false outside the block.
     #[inline]
     pub fn solid(&self, i: usize, j: usize, k: usize) -> bool {
         i < self.dims[0]
@@ -139,7 +139,7 @@ impl VoxelBlock {
         self.bits.iter().map(|w| u64::from(w.count_ones())).sum()
     }
 
-    /// The voxel that holds `point` (m, in the block's frame).
+    /// The voxel that contains `point` (m, in the block's frame).
     pub fn voxel_at(&self, point: [f64; 3]) -> Option<[usize; 3]> {
         let place = |a: usize| (point[a] - self.origin[a]) / self.voxel[a];
         let inside = |a: usize| place(a) >= 0.0 && place(a) < self.dims[a] as f64;

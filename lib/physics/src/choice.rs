@@ -1,11 +1,10 @@
-//! The words that name the alternatives of a choice, the same in case files, tables and messages.
+//! Names of the alternatives of a choice, the same in case files, tables and messages.
 
 use std::mem::discriminant;
 
 /// A choice whose alternatives have names.
 pub trait Choice: Copy + 'static {
-    /// The alternatives by name, in the order of messages; one that carries a number carries none
-    /// yet (0) here.
+    /// The alternatives by name, in the order of messages. The number of an alternative that carries one is 0 here.
     const NAMED: &'static [(&'static str, Self)];
 
     /// The name of this alternative.
@@ -17,7 +16,7 @@ pub trait Choice: Copy + 'static {
     /// The alternative that `word` names.
     ///
     /// # Errors
-    /// A sentence with the names there are.
+    /// A sentence with the accepted names.
     fn named(word: &str) -> Result<Self, String> {
         let found = Self::NAMED.iter().find(|(name, _)| *name == word);
         found.map(|(_, choice)| *choice).ok_or_else(|| {

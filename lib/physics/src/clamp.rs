@@ -1,19 +1,18 @@
 //! The clamp and its load controller.
 
-/// How the upper adherend is driven.
+/// Drive of the upper adherend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clamp {
     /// Largest closing speed, m/s.
     pub closing_speed: f64,
-    /// Pressure not to be exceeded, Pa; `None`: constant speed.
+    /// Pressure limit, Pa; `None`: constant speed.
     pub max_pressure: Option<f64>,
-    /// Gains of the PID when the case asks for one; the scheme has its own default otherwise.
+    /// Gains of the PID controller; `None`: the default of the scheme.
     pub pid: Option<Pid>,
 }
 
-/// Gains of the load controller, dimensionless: the error is (p_max - p)/p_max, the output a
-/// factor of the closing speed, and time counts in units of [`PidControl`]'s
-/// reference time, so that gains do not depend on the time step.
+/// Dimensionless gains of the load controller. The error is (p_max - p)/p_max, the output a factor on the closing speed.
+/// Time is in units of [`PidControl`]'s reference time, so that gains do not depend on the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pid {
     /// Proportional gain.
@@ -25,32 +24,32 @@ pub struct Pid {
 }
 
 impl Default for Pid {
-    /// The gains of the six runs: integral alone. The force of contact is an impulse over the step
-    /// and answers a change of speed at once: a proportional gain of 0.3 doubles the overshoot.
+    /// The gains of the six runs: integral only. The contact force is an impulse over the step and responds to a change of
+    /// speed at once, so a proportional gain of 0.3 doubles the overshoot.
     fn default() -> Self {
         let (kp, ki, kd) = (0.0, 0.02, 0.0);
         Self { kp, ki, kd }
     }
 }
 
-/// Unit of time of the gains over the time sound takes to cross a cell. The resistance of a real
-/// bond line rises e-fold within 1.6 um of travel, that of the explicit scheme 1.75-fold within
-/// 60 nm where a wall crosses nodes: the integral acts within 1/ki units, 2.4 ns at cells of 2.9 um.
+/// Reference time of the gains, over the time in which sound crosses a cell. The integral acts within 1/ki of it, 2.4 ns
+/// with cells of 2.9 um. It must follow a resistance that rises e-fold within 1.6 um of travel in a real bond line and, in
+/// the explicit scheme, 1.75-fold within 60 nm where a wall crosses nodes.
 const REFERENCE_TIME: f64 = 0.015;
 
-/// Least integral: the speed from which a clamp that was held comes back.
-const LEAST: f64 = 1e-6;
+/// Least integral: fraction of the closing speed from which a standing clamp recovers.
+const LEAST_INTEGRAL: f64 = 1e-6;
 
-/// Relative excess over the pressure limit from which a step does not keep it.
-const BROKEN: f64 = 0.02;
+/// Relative excess over the pressure limit that still counts as keeping it.
+const TOLERATED_EXCESS: f64 = 0.02;
 
-/// Whether `pressure` (Pa) on the clamp's body is more than a clamp that keeps its `limit` (Pa) leaves,
-/// measured by `scale` (Pa): the limit itself, where that is not next to nothing.
+/// Whether `pressure` (Pa) on the clamp's body breaks the `limit` (Pa). The tolerated excess is relative to `scale` (Pa): the
+/// limit itself, or more if the limit is almost zero.
 pub fn breaks(pressure: f64, limit: f64, scale: f64) -> bool {
-    pressure > limit + BROKEN * scale
+    pressure > limit + TOLERATED_EXCESS * scale
 }
 
-/// What is wrong with a run in whose last step `pressure` (Pa) breaks the limit, a clause.
+/// A clause for a run in whose last step `pressure` (Pa) breaks the limit.
 pub fn broken(pressure: f64) -> String {
     format!(
         "liquid presses the clamp's body with {pressure:.3e} Pa in the last step, above its \
@@ -61,11 +60,10 @@ pub fn broken(pressure: f64) -> String {
 
 /// PID control of the closing speed (the paper's section 2.2), on the logarithm of the speed.
 ///
-/// Pressure is resistance times speed, and a press slows down by decades as its resistance
-/// rises: a controller that adds to the speed has a gain that grows by as much, and one of a
-/// pressure far above the limit either stands still there or chatters. The integral lies within
-/// [1e-6, 1] and so does not wind up; at its least the clamp stands while the limit is exceeded, because
-/// in sealed liquid even a millionth of the speed would press on for good.
+/// Pressure is resistance times speed, and a press slows down by decades as its resistance rises. The gain of a controller
+/// that adds to the speed would grow as much, and far above the limit it would stall or chatter. The integral lies within
+/// [1e-6, 1] and so does not wind up. At its least value the clamp stands while the limit is exceeded, because in sealed
+/// liquid even a millionth of the speed would raise the pressure for ever.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PidControl {
     clamp: Clamp,
@@ -77,7 +75,7 @@ pub struct PidControl {
 }
 
 impl PidControl {
-    /// A controller at full speed for cells that sound crosses in `transit` seconds.
+    /// A controller at full speed; sound crosses a cell in `transit` (s).
     pub fn new(clamp: Clamp, transit: f64) -> Self {
         Self {
             clamp,
@@ -99,16 +97,16 @@ impl PidControl {
         self.clamp.max_pressure
     }
 
-    /// Takes in the pressure (Pa) measured over a step of `dt` (s).
+    /// Updates the speed by the pressure (Pa) in a step of `dt` (s).
     pub fn observe(&mut self, pressure: f64, dt: f64) {
         let Some(limit) = self.clamp.max_pressure else {
             return;
         };
         let error = 1.0 - pressure / limit;
         let tau = dt / self.reference_time;
-        // One step changes the speed by a factor of 1.65 at most: long steps must not make the loop ring.
+        // One step changes the speed by a factor of 1.65 at most, so that long steps do not make the loop oscillate.
         let step = (self.gains.ki * tau * error).clamp(-0.5, 0.5);
-        self.integral = (self.integral * step.exp()).clamp(LEAST, 1.0);
+        self.integral = (self.integral * step.exp()).clamp(LEAST_INTEGRAL, 1.0);
         let derivative = self.gains.kd * (error - self.last_error) / tau;
         let factor = 1.0 + self.gains.kp * error.min(0.0) + derivative;
         self.last_error = error;
@@ -118,24 +116,24 @@ impl PidControl {
         };
     }
 
-    /// Whether the clamp stands, as slow as it can be, above its limit.
+    /// Whether the clamp stands: the integral is at its least and the limit exceeded.
     fn stands(&self) -> bool {
-        self.integral <= LEAST && self.last_error < 0.0
+        self.integral <= LEAST_INTEGRAL && self.last_error < 0.0
     }
 
-    /// The pressure (Pa) of the last step, if the clamp stands and that breaks the limit.
+    /// The pressure (Pa) of the last step, if the clamp stands and the pressure breaks the limit.
     pub fn overwhelmed(&self) -> Option<f64> {
         let limit = self.clamp.max_pressure?;
         let pressure = limit * (1.0 - self.last_error);
         (self.stands() && breaks(pressure, limit, limit)).then_some(pressure)
     }
 
-    /// The changing part, for checkpoints.
+    /// The state for checkpoints.
     pub fn state(&self) -> [f64; 3] {
         [self.integral, self.last_error, self.speed]
     }
 
-    /// Goes back to a saved changing part.
+    /// Restores a saved state.
     pub fn set_state(&mut self, [integral, last_error, speed]: [f64; 3]) {
         (self.integral, self.last_error, self.speed) = (integral, last_error, speed);
     }
@@ -155,8 +153,8 @@ mod tests {
         PidControl::new(CLAMP, 2.9e-6 / 913.0)
     }
 
-    /// Plant: p = R v, R rising e-fold per 1.6 um of travel as measured on a real bond line,
-    /// behind a lag. Returns the largest and the last pressure over the limit.
+    /// Controlled system: p = R v behind a lag; R rises e-fold per 1.6 um of travel, as measured on a real bond line. Returns
+    /// the largest and the last pressure over the limit.
     fn closing(dt: f64, lag: f64) -> (f64, f64) {
         let mut control = control();
         let (mut p, mut travel, mut largest) = (0.0_f64, 0.0, 0.0_f64);
@@ -182,8 +180,7 @@ mod tests {
         }
     }
 
-    /// Added to the speed, the error of a pressure far above the limit froze the integral where the
-    /// output was just above zero: 1.3 to 14 times the limit were held for good.
+    /// A controller that adds the error to the speed would hold a pressure far above the limit for ever.
     #[test]
     fn comes_back_from_far_above_the_limit_and_from_a_thousandth_of_the_speed() {
         let resistance = 1e3 * 2.5e6;
@@ -212,7 +209,7 @@ mod tests {
         assert!(steps < 10, "{steps} steps to slow down by 10 %");
     }
 
-    /// It went on at a millionth of its speed for good.
+    /// The clamp must stand, not creep on at a millionth of its speed.
     #[test]
     fn stands_where_liquid_gives_way_to_nothing_and_comes_back() {
         let mut control = control();

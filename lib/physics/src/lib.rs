@@ -1,6 +1,5 @@
-//! Types that both schemes share, free of any grid: the scene resolved to SI, the two kinds of
-//! matter in it (a Tait liquid and rigid voxel bodies), the wall law between them, clamp
-//! control, and the regime numbers that justify what is left out.
+//! Types shared by both schemes, independent of any grid: the scene in SI, its materials (a Tait liquid and rigid voxel
+//! bodies), the wall law between them, clamp control, and the regime numbers that justify what is left out.
 
 mod bodies;
 mod choice;

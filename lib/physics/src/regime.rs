@@ -7,7 +7,7 @@ use crate::{Amount, Scene};
 /// Surface tension of a typical wood adhesive, N/m (paper, below Eq. 4).
 const SURFACE_TENSION: f64 = 0.03;
 
-/// Dimensionless numbers of a run: what may be left out and what may not.
+/// Dimensionless numbers of a run, by which terms may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
     /// Speed of sound at rest, m/s.
@@ -16,14 +16,14 @@ pub struct Regime {
     pub mach: f64,
     /// rho v d / eta for a lumen of six cells with the smallest viscosity at its tube rate.
     pub reynolds: f64,
-    /// rho (d/2)^2 / eta of that lumen, s: how fast a velocity profile settles.
+    /// rho (d/2)^2 / eta of that lumen, s: time in which a velocity profile settles.
     pub diffusion_time: f64,
     /// 8 v / d, the tube shear rate of paper Eq. 7, 1/s.
     pub tube_shear_rate: f64,
-    /// 2 gamma cos theta / r of that lumen, Pa (paper Eq. 4); with a typical gamma and cos theta = 1 where the
-    /// scene names none.
+    /// 2 gamma cos theta / r of that lumen, Pa (paper Eq. 4); with a typical gamma and cos theta = 1 if the scene has no
+    /// surface tension.
     pub capillary_pressure: f64,
-    /// Whether the run computes with it.
+    /// Whether the run computes capillary pressure.
     pub capillarity: bool,
     /// Largest pressure over bulk modulus; `None` without a pressure limit.
     pub volume_strain: Option<f64>,
@@ -32,8 +32,7 @@ pub struct Regime {
 }
 
 impl Regime {
-    /// The numbers of `scene` with `amount` of liquid, for a lumen of six cells and its fastest
-    /// driver.
+    /// The numbers of `scene` with `amount` of liquid, for a lumen of six cells and the largest speed.
     pub fn of(scene: &Scene, amount: &Amount) -> Self {
         let liquid = &scene.liquid;
         let lumen = 6.0 * scene.grid.cell_m;
@@ -55,7 +54,7 @@ impl Regime {
         }
     }
 
-    /// Sentences about terms that are left out although this regime would need them.
+    /// Warnings about terms that are left out although this regime needs them.
     pub fn warnings(&self) -> Vec<String> {
         let mut said = Vec::new();
         if self.mach > 0.1 {

@@ -1,17 +1,17 @@
-//! Checks of a saved state that every scheme makes before it goes on from it: a checkpoint is a file,
-//! and a sound checksum says nothing about who wrote it.
+//! Checks that every scheme makes before it restores a saved state: a checkpoint is a file that anyone can write, with a
+//! valid checksum.
 
 use crate::{Motion, Scene, Stop};
 
-/// Furthest that a body may have moved, cells.
-const FAR: f64 = 1e9;
-/// Part of a length by which sums of the same steps may differ.
+/// Largest displacement of a body, cells.
+const MOST_CELLS: f64 = 1e9;
+/// Rounding of sums of the same steps, relative.
 const ROUNDING: f64 = 1e-6;
 
 /// Refuses `values` that are not all finite.
 ///
 /// # Errors
-/// The name and the first such place.
+/// The name of the array and the index of the first such value.
 pub fn check_finite<T: Copy + Into<f64>>(values: &[T], name: &str) -> Result<(), String> {
     match values.iter().position(|&x| !x.into().is_finite()) {
         None => Ok(()),
@@ -21,11 +21,11 @@ pub fn check_finite<T: Copy + Into<f64>>(values: &[T], name: &str) -> Result<(),
     }
 }
 
-/// Refuses points that are not some of the `total` points of the scene, each at most once: no
-/// point appears from nowhere, and `lost` of them have left.
+/// Refuses point numbers that are not distinct numbers below `total`, the points of the scene, or whose count and `lost`
+/// do not add up to `total`.
 ///
 /// # Errors
-/// What is wrong with them.
+/// A sentence on what is wrong.
 pub fn check_points(id: &[u32], total: usize, lost: u64) -> Result<(), String> {
     if (id.len() as u64).checked_add(lost) != Some(total as u64) || id.is_empty() {
         return Err(format!(
@@ -47,10 +47,10 @@ pub fn check_points(id: &[u32], total: usize, lost: u64) -> Result<(), String> {
     Ok(())
 }
 
-/// Refuses displacements (m) that the bodies of `scene` cannot have at clamp travel `travel_m`.
+/// Refuses displacements (m) that bodies with these motions cannot have at clamp travel `travel_m`.
 ///
 /// # Errors
-/// The body at fault.
+/// The body with a wrong displacement.
 pub fn check_bodies(
     scene_motions: &[Motion],
     displacement: &[[f64; 3]],
@@ -69,7 +69,7 @@ pub fn check_bodies(
         let fits = match motion {
             Motion::Fixed => *d == [0.0; 3],
             Motion::Clamped => d[0] == 0.0 && d[2] == 0.0 && near(d[1], -travel_m),
-            Motion::Constant(_) => d.iter().all(|x| x.abs() <= FAR * cell_m),
+            Motion::Constant(_) => d.iter().all(|x| x.abs() <= MOST_CELLS * cell_m),
         };
         if !fits {
             return Err(format!(
@@ -83,11 +83,11 @@ pub fn check_bodies(
 /// Refuses a clamp travel (m) that a run of `scene` cannot have.
 ///
 /// # Errors
-/// The travel and what is possible.
+/// The travel and its possible range.
 pub fn check_travel(scene: &Scene, travel_m: f64) -> Result<(), String> {
     let most = match scene.stop {
         Stop::Closed { travel_m } => travel_m * (1.0 + ROUNDING),
-        Stop::Time(_) => FAR * scene.grid.cell_m,
+        Stop::Time(_) => MOST_CELLS * scene.grid.cell_m,
     };
     match (0.0..=most).contains(&travel_m) {
         true => Ok(()),

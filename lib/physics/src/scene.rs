@@ -12,7 +12,7 @@ pub enum Dimensions {
 }
 
 impl Dimensions {
-    /// Number of axes along which things differ.
+    /// Number of computed axes.
     pub fn axes(self) -> usize {
         match self {
             Self::Two => 2,
@@ -21,13 +21,13 @@ impl Dimensions {
     }
 }
 
-/// What happens at the two sides of the domain normal to an axis.
+/// Condition at the two sides of the domain normal to an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {
     /// Mirror: no flow through, no friction.
     #[default]
     Symmetry,
-    /// What leaves on one side enters on the other.
+    /// Liquid and bodies that leave on one side enter on the other.
     Periodic,
     /// Zero traction; liquid that reaches it is lost and counted.
     Open,
@@ -41,7 +41,7 @@ impl Choice for Boundary {
     ];
 }
 
-/// The box of cubic cells that a run computes in.
+/// The domain of cubic cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridBox {
     /// Edge of a cell, m.
@@ -58,7 +58,7 @@ impl GridBox {
         std::array::from_fn(|a| self.min_m[a] + self.cells[a] as f64 * self.cell_m)
     }
 
-    /// Area of the cross-section normal to y, m2: what clamp pressures are referred to.
+    /// Area of the cross-section normal to y, m2, to which clamp pressures refer.
     pub fn area_m2(&self) -> f64 {
         self.cells[0] as f64 * self.cells[2] as f64 * self.cell_m * self.cell_m
     }
@@ -110,19 +110,18 @@ impl FromIterator<Seed> for Points {
     }
 }
 
-/// How much liquid a scene starts with and where: what plans need, known before its points are
-/// made.
+/// Amount and extent of the liquid at the start, which a plan needs; known without making the points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
     /// Material points.
     pub points: u64,
-    /// Their volume at J = 1, m3.
+    /// Volume at J = 1, m3.
     pub volume_m3: f64,
     /// Low corner of the box around them, m.
     pub low_m: [f64; 3],
     /// High corner of that box, m.
     pub high_m: [f64; 3],
-    /// Speed of the fastest, m/s.
+    /// Speed of the fastest point, m/s.
     pub speed: f64,
 }
 
@@ -140,7 +139,7 @@ impl Default for Amount {
 }
 
 impl Amount {
-    /// That of `points`.
+    /// The amount of `points`.
     pub fn of(points: &Points) -> Self {
         points.seeds().fold(Self::default(), |sum, seed| {
             sum.and(Self {
@@ -171,10 +170,10 @@ pub fn norm(v: [f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-/// When a run ends.
+/// End condition of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
-    /// When the clamp has travelled this far, m (the adherends are back in place).
+    /// At this travel of the clamp (the adherends are back in place).
     Closed {
         /// Travel, m.
         travel_m: f64,
@@ -183,7 +182,7 @@ pub enum Stop {
     Time(f64),
 }
 
-/// A run resolved to SI: everything a scheme needs to know and nothing it does not.
+/// A scene in SI: all that a scheme needs, and no more.
 ///
 /// The bond normal is y. In plane strain the grid is one cell deep.
 #[derive(Clone, Debug)]
@@ -198,7 +197,7 @@ pub struct Scene {
     pub liquid: Liquid,
     /// The liquid's material points.
     pub points: Points,
-    /// Rigid bodies; all of different motion or name.
+    /// Rigid bodies; no two have the same name and motion.
     pub bodies: Vec<RigidBody>,
     /// Law between liquid and bodies.
     pub wall: WallLaw,
@@ -206,8 +205,8 @@ pub struct Scene {
     pub gravity: [f64; 3],
     /// The clamp that drives bodies with `Motion::Clamped`.
     pub clamp: Option<Clamp>,
-    /// The stages of its press programme, whose largest speed and pressure `clamp` has; none where it has
-    /// one speed and one limit. `stop` then is the way of the clamp, at whose end it stands.
+    /// The stages of its press programme; empty for a clamp of one speed and limit. With a programme, `clamp` has its largest
+    /// speed and pressure, and `stop` is the travel at whose end the clamp stands.
     pub programme: Vec<PressStage>,
     /// When to end.
     pub stop: Stop,
@@ -228,20 +227,20 @@ impl Scene {
         self.speed_with(&Amount::of(&self.points))
     }
 
-    /// The same for `liquid` instead of the scene's points.
+    /// Largest speed known before the first step, m/s, for `liquid` instead of the scene's points.
     pub fn speed_with(&self, liquid: &Amount) -> f64 {
         (self.bodies.iter())
             .map(|body| norm(self.velocity(body.motion)))
             .fold(liquid.speed, f64::max)
     }
 
-    /// Length (m) after which all repeats along `axis`; `None` where its sides are not periodic.
+    /// Period (m) along `axis`; `None` if its sides are not periodic.
     pub fn period(&self, axis: usize) -> Option<f64> {
         let periodic = axis < self.dimensions.axes() && self.boundary[axis] == Boundary::Periodic;
         periodic.then(|| self.grid.cells[axis] as f64 * self.grid.cell_m)
     }
 
-    /// The body that the clamp drives, and whose pressure it is controlled by.
+    /// The body that the clamp drives and whose pressure controls the clamp.
     pub fn clamped(&self) -> Option<usize> {
         (self.bodies.iter()).position(|body| body.motion == Motion::Clamped)
     }

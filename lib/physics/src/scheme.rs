@@ -4,16 +4,16 @@ use std::fmt;
 
 use crate::PressRun;
 
-/// How far a step may go at most.
+/// Limits of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct StepLimit {
-    /// Time left until the next event the run must hit exactly, s.
+    /// Time to the next event that a step must meet exactly, s.
     pub time_s: f64,
-    /// Clamp travel left until closure, m; infinite without a clamp.
+    /// Clamp travel to closure, m; infinite without a clamp.
     pub travel_m: f64,
 }
 
-/// What one step did; cheap to know.
+/// Report of a step, from data at hand.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReport {
     /// Time step, s.
@@ -22,17 +22,17 @@ pub struct StepReport {
     pub closing_speed: f64,
     /// Clamp travel since the start, m.
     pub travel_m: f64,
-    /// Normal force of the liquid on the lower body over the bond area, Pa, compression positive.
+    /// Normal force of the liquid on the lower body over the bond area, Pa; positive in compression.
     pub pressure_bottom: f64,
     /// The same on the upper body.
     pub pressure_top: f64,
-    /// Material points, or voxels of liquid where no points are followed, that left through an open side so far.
+    /// Material points that left through an open side so far; voxels of liquid, if the scheme does not follow points.
     pub lost: u64,
     /// Iterations of the linear solver; 0 for an explicit step.
     pub iterations: u32,
 }
 
-/// What is computed only when a row of the history is due.
+/// Quantities computed only when a row of the history is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Diagnostics {
     /// Kinetic energy of the liquid, J.
@@ -46,24 +46,24 @@ pub struct Diagnostics {
     /// Fraction of the liquid volume whose viscosity was capped to keep an explicit step
     /// stable; 0 for an implicit one.
     pub capped_fraction: f64,
-    /// Of a liquid that loses water: where that is.
+    /// Water balance of a liquid that loses water.
     pub water: Option<WaterState>,
 }
 
-/// Where the water of a liquid is that loses it to the walls.
+/// Water balance of a liquid that loses water to the walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaterState {
-    /// Volume that the material points that are left have given off, m3.
+    /// Water given off by the remaining material points, m3.
     pub given_off_m3: f64,
     /// Volume of water in the walls, m3.
     pub in_walls_m3: f64,
-    /// Water that is neither in the points nor in walls, nor left with points, over all of it.
+    /// Fraction of the water that the balance misses: not in points or walls, and not gone with points that left.
     pub missing: f64,
     /// Mean solids content of the liquid, by mass.
     pub solids: f64,
 }
 
-/// The liquid as snapshots and metrics see it; arrays of equal length, one entry per point.
+/// The liquid for snapshots and metrics: arrays of equal length, one entry per point.
 #[derive(Clone, Debug, Default)]
 pub struct LiquidState {
     /// Positions, m.
@@ -76,7 +76,7 @@ pub struct LiquidState {
     pub pressure: Vec<f32>,
     /// Shear rates by the scene's convention, 1/s.
     pub shear_rate: Vec<f32>,
-    /// Solids contents by mass; none where the liquid loses no water.
+    /// Solids contents by mass; empty if the liquid loses no water.
     pub solids: Vec<f32>,
 }
 
@@ -91,13 +91,13 @@ pub enum Array {
     U32(Vec<u32>),
 }
 
-/// What an array consists of, piece by piece and in order, each time anew.
+/// A function that passes the pieces of an array, in order, to a visitor; it can be called repeatedly.
 pub type Pieces<'a, T> = Box<dyn Fn(&mut dyn FnMut(&[T])) + 'a>;
 
-/// One array of a scheme that is being saved: as it is, or in pieces, so that what is as large as the liquid is not
-/// in memory twice.
+/// One array of a scheme that is being saved: whole, or in pieces, so that arrays as large as the liquid are not in memory
+/// twice.
 pub enum Saving<'a> {
-    /// All of it.
+    /// The whole array.
     Whole(Array),
     /// In single precision.
     F32(Pieces<'a, f32>),
@@ -124,11 +124,11 @@ impl Saving<'_> {
     }
 }
 
-/// Everything a scheme needs to go on bit by bit where it stopped: named arrays.
+/// The saved state of a scheme, from which it continues with the same bits: named arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Saved(pub Vec<(String, Array)>);
 
-/// Arrays by name and type; an error where one is absent or of another type.
+/// Arrays by name and type; an error if one is absent or of another type.
 macro_rules! arrays {
     ($(#[$doc:meta] $name:ident $kind:ident $type:ident $otherwise:literal,)*) => {
         $(#[$doc]
@@ -145,9 +145,9 @@ impl Saved {
     arrays! {
         /// The array `name` in double precision.
         f64s F64 f64 "is not in double precision",
-        /// The same in single precision.
+        /// The array `name` in single precision.
         f32s F32 f32 "is not in single precision",
-        /// The same of indices.
+        /// The array `name` of indices.
         u32s U32 u32 "does not hold indices",
     }
 
@@ -168,7 +168,7 @@ pub struct StageTime {
     pub wall_s: f64,
 }
 
-/// Why a step could not be taken: step, place, likely cause, in one sentence.
+/// Why a step failed: step, place and likely cause, in one sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure(pub String);
 
@@ -185,48 +185,48 @@ pub trait Scheme {
     /// Takes one step, at most as far as `limit`.
     ///
     /// # Errors
-    /// When the state is no longer sound; the state before the step is then lost.
+    /// If the state is no longer sound; the state before the step is then lost.
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure>;
     /// Quantities of a history row, for the state after the last step.
     fn diagnostics(&self) -> Diagnostics;
     /// The liquid after the last step.
     fn liquid(&self) -> LiquidState;
-    /// Positions and volumes of its points, all that the metrics of a history row take; the rest may be missing.
+    /// Positions and volumes of the liquid, for the metrics of a history row; other arrays may be empty.
     fn filling(&self) -> LiquidState {
         self.liquid()
     }
     /// Displacement of each body of the scene, m.
     fn displacements(&self) -> Vec<[f64; 3]>;
-    /// All that [`Scheme::restore`] needs, by name.
+    /// The arrays for [`Scheme::restore`], by name.
     fn saving(&self) -> Vec<(String, Saving<'_>)>;
-    /// The same in memory.
+    /// The same arrays in memory.
     fn save(&self) -> Saved {
         let arrays = self.saving().into_iter();
         Saved(arrays.map(|(name, array)| (name, array.whole())).collect())
     }
-    /// Goes back to a saved state.
+    /// Restores a saved state.
     ///
     /// # Errors
-    /// When the arrays are not those of this scheme and scene.
+    /// If the arrays are not those of this scheme and scene.
     fn restore(&mut self, saved: &Saved) -> Result<(), String>;
     /// Wall time per stage since the start.
     fn stage_times(&self) -> Vec<StageTime>;
-    /// Named counts for the summary: how often the scheme had to step in, since the start.
+    /// Interventions of the scheme since the start, counted by kind, for the summary.
     fn counts(&self) -> Vec<(&'static str, u64)>;
-    /// The press programme and where it is, if the scheme goes through one.
+    /// The press programme and its progress, if there is one.
     fn programme(&self) -> Option<&PressRun> {
         None
     }
-    /// Whether the liquid has set by more than the time of its cure.
+    /// Whether the liquid has set by drying, before the time of its cure.
     fn has_set(&self) -> bool {
         false
     }
-    /// Whether the points of [`Scheme::liquid`] are those of the scene, followed from its start; else they are places of a
-    /// field, of any number.
+    /// Whether the points of [`Scheme::liquid`] are the scene's material points, followed from the start; else they sample a
+    /// field, and their number varies.
     fn follows_points(&self) -> bool {
         true
     }
-    /// What the scheme itself knows against its results, a clause.
+    /// The scheme's own objection to its results, a clause.
     fn objection(&self) -> Option<String> {
         None
     }

@@ -1,18 +1,17 @@
-//! The stages of a step: which of them a run has, and why it does without the others.
+//! The stages of a step: which of them a run has, and why it leaves out the others.
 
 use crate::{Boundary, Choice, Dimensions, Scene, Viscosity, WallLaw};
 
 /// One stage of a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stage {
-    /// Its name in plans and summaries.
+    /// Name in plans and summaries.
     pub name: &'static str,
-    /// Why the run does without it, in a few words with numbers; `None` where it has it.
+    /// Why the run leaves it out, in a few words with numbers; `None` for a stage that it has.
     pub absent: Option<String>,
 }
 
-/// The stages of a scheme on one scene: its step is resolved from this list, which is printed as
-/// what it leaves out.
+/// The stages of a scheme on a scene. The scheme builds its step from this list, and plans list the absent stages.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Stages(Vec<Stage>);
 
@@ -36,7 +35,7 @@ impl Stages {
     /// Sides that wrap around.
     pub const PERIODIC: &str = "periodic images";
 
-    /// The stages that every scheme has or not by its scene alone.
+    /// The stages whose presence depends on the scene only.
     pub fn of(scene: &Scene) -> Self {
         let absent = |absent: bool, why: &str| absent.then(|| why.to_owned());
         let flat = scene.dimensions == Dimensions::Two;
@@ -68,7 +67,7 @@ impl Stages {
             .and(Self::PERIODIC, no_side(Boundary::Periodic))
     }
 
-    /// These and one more, with the reason if it is absent.
+    /// Adds a stage, with the reason if it is absent.
     #[must_use]
     pub fn and(mut self, name: &'static str, absent: Option<String>) -> Self {
         self.0.push(Stage { name, absent });
@@ -80,12 +79,12 @@ impl Stages {
         self.iter().any(|s| s.name == name && s.absent.is_none())
     }
 
-    /// All of them, present or absent.
+    /// All stages, present or absent.
     pub fn iter(&self) -> impl Iterator<Item = &Stage> {
         self.0.iter()
     }
 
-    /// Names of those that the run has.
+    /// Names of the present stages.
     pub fn present(&self) -> Vec<&'static str> {
         let present = self.iter().filter(|stage| stage.absent.is_none());
         present.map(|stage| stage.name).collect()

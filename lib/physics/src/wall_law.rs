@@ -1,4 +1,4 @@
-//! Stress between liquid and wall.
+//! Shear stress between liquid and wall.
 
 use crate::{Choice, Rheology};
 
@@ -31,7 +31,7 @@ impl Choice for WallLaw {
 }
 
 impl WallLaw {
-    /// The fraction of the sliding velocity that is left after an implicit wall impulse.
+    /// Fraction of the sliding velocity that remains after an implicit wall impulse.
     ///
     /// With the sliding speed `slip` (m/s) before the impulse, the stick impulse S = m slip
     /// and the coefficient `a` = k A dt / m (per Pa s) this is the smallest x in (0, 1] with
@@ -66,11 +66,11 @@ fn lowest_root<R: Rheology>(law: &R, rate: f64, a: f64) -> f64 {
         return 1.0 / (1.0 + a * law.viscosity(rate));
     }
     let excess = |x: f64| x * (1.0 + a * law.viscosity(x * rate)) - 1.0;
-    // Below the first and above the last breakpoint the viscosity is one number.
+    // Below the first and above the last breakpoint the viscosity is constant.
     let constant = |beyond: f64| 1.0 / (1.0 + a * law.viscosity(beyond));
     let breakpoints = law.breakpoints();
     let (Some(&first), Some(&last)) = (breakpoints.first(), breakpoints.last()) else {
-        // One root: the stress grows with the rate.
+        // The root is unique, as the stress grows with the rate.
         let least = 1.0 / (1.0 + a * law.largest());
         return bracketed(excess, (least, excess(least)), (1.0, excess(1.0)));
     };
@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// The slip that is left, and what is wrong with any other.
+    /// The remaining slip, and the residual of the law at any slip.
     fn solved<R: Rheology>(law: &R, slip: f64, dose: f64) -> (f64, impl Fn(f64) -> f64) {
         let (rate, a) = (slip / LENGTH, dose / LENGTH);
         let excess = move |x: f64| x * (1.0 + a * law.viscosity(x * rate)) - 1.0;
@@ -192,7 +192,7 @@ mod tests {
         }
     }
 
-    /// Plain false position keeps one end and creeps: 34 evaluations instead of 11.
+    /// Plain false position keeps one end of the bracket and needs 34 evaluations instead of 11.
     #[test]
     fn the_root_is_found_in_few_evaluations() {
         let count = std::cell::Cell::new(0);

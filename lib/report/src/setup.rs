@@ -82,7 +82,7 @@ fn pressed(state: &Header, resolved: &str) -> Option<(u64, Table)> {
     let run = state.provenance.iter().rfind(|made| made.tool == PRESS)?;
     let (_, bond) = run.inputs.get(1)?;
     let cell_m = state.attribute("cell_m")?.parse().ok()?;
-    let mut case = metrics::case_but_cells(resolved, cell_m, true)?;
+    let mut case = metrics::case_without_cells(resolved, cell_m, true)?;
     case.remove("integrator");
     for (table, key) in OF_SCHEMES {
         let table = case.get_mut(table).and_then(Value::as_table_mut);

@@ -1,4 +1,4 @@
-//! State of a press over time, as `metrics` measures it: columns of the history and a part of the summary.
+//! Penetration during a run, measured by `metrics`: columns of the history and the `penetration` of the summary.
 
 use metrics::{
     Adhesive, BondLine, Datum, DepthLayer, Penetration, Reference, Sealed, State, Wood, bond_line,
@@ -12,22 +12,22 @@ use units::Axis;
 use crate::case::Case;
 use crate::failure::{RunFailure, refused};
 use crate::resolve::Setup;
-use crate::snapshot::{in_file_axes, wood_now};
+use crate::snapshot::{displaced_wood, in_file_axes};
 
-/// The columns of a [`Moment`], in order.
+/// Columns of a [`BondRow`], in order.
 pub(crate) const COLUMNS: &str = ",wp_bottom_um,wp_top_um,wp_total_um,ep_bottom_um,ep_top_um,ep_total_um,\
 p95_depth_bottom_um,p95_depth_top_um,p95_depth_total_um,wetted_area_bottom_um2,wetted_area_top_um2,\
 half_filled_depth_bottom_um,half_filled_depth_top_um,bond_line_filled,bond_line";
 
-/// A bond at one moment, measured from midway between the bond surfaces.
+/// Penetration and bond line in one row of the history. Depths count from midway between the bond surfaces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moment {
+pub(crate) struct BondRow {
     sides: [Penetration; 3],
     line: BondLine,
 }
 
-impl Moment {
-    /// Its fields of a row of the history, as `wp-metrics --series` writes them.
+impl BondRow {
+    /// The fields of the row, formatted as in `wp-metrics --series`.
     pub(crate) fn fields(&self) -> String {
         let um = |metres: f64| format!(",{:.6}", 1e6 * metres);
         let um2 = |area: f64| format!(",{:.4}", 1e12 * area);
@@ -43,18 +43,18 @@ impl Moment {
     }
 }
 
-/// Looks at the bond of a run; what stays the same of it is worked out once.
-pub(crate) struct Watch<'a> {
+/// Measures the bond of a run. Sealed voids do not change, so they are found once.
+pub(crate) struct BondMeter<'a> {
     bond: &'a ParticleFile,
     normal: Axis,
-    /// Points of its liquid.
+    /// Material points of the liquid at the start.
     points: u64,
     sealed: Sealed,
 }
 
-/// Refuses a case that asks for what its scene cannot tell: without a bond there is nothing to measure, and in a
-/// slice the liquid is as deep as a cell and the wood as a voxel.
-pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
+/// Refuses `[output] penetration` for scenes without a bond file, and for slices: there the liquid is one cell deep but the
+/// wood one voxel.
+pub(crate) fn check_output(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
     if case.output.penetration && !(bonded && is_solid(setup)) {
         return refused(
             "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions",
@@ -63,19 +63,19 @@ pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunF
     Ok(())
 }
 
-/// Who measures the bond of a run, where [`check`] lets it be asked for.
-/// Errors: a bond that cannot be measured although the case asks for it.
-pub(crate) fn watch<'a>(
+/// The measuring of a run's bond; `None` for scenes without a bond file and for slices.
+/// Errors: the case asks for penetration, but the bond cannot be measured.
+pub(crate) fn bond_meter<'a>(
     case: &Case,
     bond: Option<&'a ParticleFile>,
     setup: &Setup,
-) -> Result<Option<Watch<'a>>, RunFailure> {
+) -> Result<Option<BondMeter<'a>>, RunFailure> {
     let bond = bond.filter(|_| is_solid(setup));
-    match bond.map(|bond| Watch::on(bond, setup)) {
+    match bond.map(|bond| BondMeter::new(bond, setup)) {
         Some(Err(error)) if case.output.penetration => refused(format!(
             "[output] penetration: the bond cannot be measured: {error}"
         )),
-        watch => Ok(watch.and_then(Result::ok)),
+        meter => Ok(meter.and_then(Result::ok)),
     }
 }
 
@@ -83,9 +83,9 @@ fn is_solid(setup: &Setup) -> bool {
     setup.scene.dimensions == Dimensions::Three
 }
 
-impl<'a> Watch<'a> {
-    /// A watch on the run of `setup`, whose wood is that of `bond`.
-    fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
+impl<'a> BondMeter<'a> {
+    /// Measures the run of `setup`, whose wood comes from `bond`.
+    fn new(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
         let state = State::of_file(bond)?;
         let middle = Datum::find(Reference::Mid, &state)?;
         Ok(Self {
@@ -96,28 +96,32 @@ impl<'a> Watch<'a> {
         })
     }
 
-    /// What the bond has come to, `lost` points of which left through open sides.
-    pub(crate) fn look(&self, scheme: &dyn Scheme, lost: u64) -> Result<Moment, RunFailure> {
+    /// Measures the current state for a row of the history; `lost` points have left through open sides.
+    pub(crate) fn measure_row(
+        &self,
+        scheme: &dyn Scheme,
+        lost: u64,
+    ) -> Result<BondRow, RunFailure> {
         let mut liquid = scheme.filling();
         in_file_axes(&mut liquid, self.normal);
         let displacements = scheme.displacements();
-        self.measure(&liquid, &displacements, |state, middle| {
-            self.moment(state, middle, lost)
+        self.with_state(&liquid, &displacements, |state, middle| {
+            self.row(state, middle, lost)
         })
     }
 
-    /// The same of `liquid`, in the axes of the bond file, and bodies so displaced (m), with the filled share of the
-    /// open lumens by depth.
-    pub(crate) fn look_closely(
+    /// Measures a state for the summary, with the filled fraction of the open lumens by depth. `liquid` is in the axes of the
+    /// bond file; `displacements` (m) are those of the bodies.
+    pub(crate) fn measure_state(
         &self,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
         lost: u64,
-    ) -> Result<Answers, RunFailure> {
-        self.measure(liquid, displacements, |state, middle| {
+    ) -> Result<BondMeasures, RunFailure> {
+        self.with_state(liquid, displacements, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
-            let Moment { sides, line } = self.moment(state, middle, lost)?;
-            Ok(Answers {
+            let BondRow { sides, line } = self.row(state, middle, lost)?;
+            Ok(BondMeasures {
                 wp_m: sides.map(|side| side.wp_m).into(),
                 ep_m: sides.map(|side| side.ep_m).into(),
                 p95_depth_m: sides.map(|side| side.p95_depth_m).into(),
@@ -125,34 +129,34 @@ impl<'a> Watch<'a> {
                 half_filled_depth_m: line.half_filled_m.into(),
                 bond_line_filled: line.filled,
                 bond_line: line.filling.to_string(),
-                outer_face_reached: at_an_outer_face(&layers),
+                outer_face_reached: reaches_outer_face(&layers),
                 filled_by_depth: FilledByDepth {
                     layer_m: state.voxel_m,
-                    bottom: shares(&layers, true),
-                    top: shares(&layers, false),
+                    bottom: filled_fractions(&layers, true),
+                    top: filled_fractions(&layers, false),
                 },
             })
         })
     }
 
-    fn moment(&self, state: &State, middle: &Datum, lost: u64) -> Result<Moment, metrics::Error> {
+    fn row(&self, state: &State, middle: &Datum, lost: u64) -> Result<BondRow, metrics::Error> {
         let left = lost as f64 / self.points as f64;
-        Ok(Moment {
+        Ok(BondRow {
             sides: penetration(state, middle),
             line: bond_line(state, left, &self.sealed)?,
         })
     }
 
-    fn measure<T>(
+    fn with_state<T>(
         &self,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
-        what: impl FnOnce(&State, &Datum) -> Result<T, metrics::Error>,
+        measure: impl FnOnce(&State, &Datum) -> Result<T, metrics::Error>,
     ) -> Result<T, RunFailure> {
-        let wood = wood_now(self.bond, displacements, self.normal)?;
+        let wood = displaced_wood(self.bond, displacements, self.normal)?;
         let [bottom, top] = wood
             .each_ref()
-            .map(|(block, bits)| bondline::Placed::of_block((block, *bits)));
+            .map(|(block, bits)| bondline::PlacedVoxels::of_block((block, *bits)));
         let header = self.bond.header();
         let state = State {
             normal: self.normal,
@@ -167,19 +171,19 @@ impl<'a> Watch<'a> {
         };
         let middle = Datum::find(Reference::Mid, &state);
         middle
-            .and_then(|middle| what(&state, &middle))
+            .and_then(|middle| measure(&state, &middle))
             .map_err(|error| RunFailure::Data(format!("the bond cannot be measured: {error}")))
     }
 }
 
-/// Whether there is adhesive in the first or last layer.
-fn at_an_outer_face(layers: &[DepthLayer]) -> bool {
+/// Whether the first or the last layer holds adhesive.
+fn reaches_outer_face(layers: &[DepthLayer]) -> bool {
     let outer = [layers.first(), layers.last()].into_iter().flatten();
     outer.into_iter().any(|layer| layer.adhesive_fraction > 0.0)
 }
 
-/// The filled shares of the open lumens on one side, from the middle to the last layer with adhesive.
-fn shares(layers: &[DepthLayer], below: bool) -> Vec<f64> {
+/// Filled fractions of the open lumens on one side, from the middle to the last layer with adhesive.
+fn filled_fractions(layers: &[DepthLayer], below: bool) -> Vec<f64> {
     let side = layers.iter().filter(|l| (l.depth_m < 0.0) == below);
     let mut shares: Vec<f64> = side.map(|l| l.filled_open_fraction).collect();
     if below {
@@ -190,53 +194,53 @@ fn shares(layers: &[DepthLayer], below: bool) -> Vec<f64> {
     shares
 }
 
-/// A quantity of both sides and of all.
+/// A quantity on each side of the bond and in total.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Sides {
+pub struct BySide {
     /// Low-coordinate side.
     pub bottom: f64,
     /// High-coordinate side.
     pub top: f64,
-    /// Both together.
+    /// Both sides together.
     pub total: f64,
 }
 
-impl From<[f64; 3]> for Sides {
+impl From<[f64; 3]> for BySide {
     fn from([bottom, top, total]: [f64; 3]) -> Self {
         Self { bottom, top, total }
     }
 }
 
-/// What a press has come to; depths are measured from midway between the bond surfaces. `wp-metrics --series` tells
-/// the same of a state.
+/// Penetration and bond line at the end of a run. Depths count from midway between the bond surfaces. `wp-metrics --series`
+/// measures the same in a state file.
 #[derive(Clone, Debug, Serialize)]
-pub struct Answers {
+pub struct BondMeasures {
     /// Weighted penetration (WP, Eq. 6), m.
-    pub wp_m: Sides,
+    pub wp_m: BySide,
     /// Effective penetration (EP), m.
-    pub ep_m: Sides,
-    /// Depth that 95 % of the adhesive does not exceed, m.
-    pub p95_depth_m: Sides,
+    pub ep_m: BySide,
+    /// Depth above which 95 % of the adhesive lies, m.
+    pub p95_depth_m: BySide,
     /// Area of wood that adhesive wets, m2.
-    pub wetted_area_m2: Sides,
-    /// Depth to which the open lumens are at least half full, m; the less of both sides in total.
-    pub half_filled_depth_m: Sides,
-    /// Mean filled share of the room between the bond surfaces and two voxels beside them.
+    pub wetted_area_m2: BySide,
+    /// Depth to which the open lumens are at least half full, m; `total` is the smaller of the two sides.
+    pub half_filled_depth_m: BySide,
+    /// Mean filled fraction of the void between the bond surfaces and within two voxels of them.
     pub bond_line_filled: f64,
     /// `filled`, `starved` or `squeezed-out`.
     pub bond_line: String,
-    /// Whether adhesive got to an outer face of the specimen: its depths are then those of a piece too small for them.
+    /// Whether adhesive reached an outer face of the specimen. The specimen is then too small, and the depths are cut short.
     pub outer_face_reached: bool,
-    /// Filled share of the open lumens in layers from the middle on, as deep as there is adhesive.
+    /// Filled fraction of the open lumens by layer, from the middle to the deepest adhesive.
     pub filled_by_depth: FilledByDepth,
 }
 
-/// The filled share of open lumens in layers.
+/// Filled fraction of the open lumens by layer.
 #[derive(Clone, Debug, Serialize)]
 pub struct FilledByDepth {
     /// Thickness of a layer, m.
     pub layer_m: f64,
-    /// Low-coordinate side, from the middle on; null where a layer has no open lumens.
+    /// Low-coordinate side, from the middle outwards; null for layers without open lumens.
     pub bottom: Vec<f64>,
     /// High-coordinate side.
     pub top: Vec<f64>,
@@ -256,9 +260,9 @@ mod tests {
                 filled_open_fraction: f64::NAN,
             })
         };
-        assert!(!at_an_outer_face(&layers([0.0, 0.5, 1.0, 0.0])));
-        assert!(at_an_outer_face(&layers([0.0, 0.5, 1.0, 1e-3])));
-        assert!(at_an_outer_face(&layers([1e-3, 0.5, 1.0, 0.0])));
-        assert!(!at_an_outer_face(&[]));
+        assert!(!reaches_outer_face(&layers([0.0, 0.5, 1.0, 0.0])));
+        assert!(reaches_outer_face(&layers([0.0, 0.5, 1.0, 1e-3])));
+        assert!(reaches_outer_face(&layers([1e-3, 0.5, 1.0, 0.0])));
+        assert!(!reaches_outer_face(&[]));
     }
 }

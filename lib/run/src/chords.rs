@@ -1,21 +1,21 @@
-//! How wide the lumens next to the bond are: chords of the voids, in voxels and cells.
+//! Lumen width at the bond: chords of the voids, in voxels and cells.
 
 use std::collections::BTreeMap;
 
 use physics::{Scene, VoxelBlock};
 
-use crate::left_out::Remark;
+use crate::omissions::Remark;
 
-/// Layers of voxels from the bond surface into the wood that are looked at.
+/// Depth from the bond surface in which chords are measured, voxels.
 const LAYERS: usize = 32;
-/// Cells across a lumen below which the implicit scheme is off by more than a tenth in places
+/// Cells across a lumen below which the error of the implicit scheme exceeds 10 % in places
 /// (docs/results/verification.md: three cells; docs/results/tradeoff.md: bond line).
-const FEWEST: f64 = 5.0;
+const FEWEST_CELLS: f64 = 5.0;
 
-/// What they are and, where they have few cells, what to do; nothing where the bodies are boxes or have no lumens.
-pub(crate) fn told(scene: &Scene) -> Vec<Remark> {
+/// Lumen width and, if few cells span a lumen, a proposed cell size. Empty for boxes and for wood without lumens.
+pub(crate) fn remarks(scene: &Scene) -> Vec<Remark> {
     let sides = [(scene.bottom, true), (scene.top, false)];
-    // Of adherends of voxels.
+    // Boxes have no lumens.
     let blocks = sides.map(
         |(body, up)| match scene.bodies.get(body?)?.blocks.as_slice() {
             [block] if block.dims() != [1; 3] => Some((block, up)),
@@ -41,8 +41,8 @@ pub(crate) fn told(scene: &Scene) -> Vec<Remark> {
             lengths.values().sum::<u64>()
         ),
     }];
-    if cells < FEWEST && cell > 1.01 * voxel {
-        // One given in cells would become shorter with them.
+    if cells < FEWEST_CELLS && cell > 1.01 * voxel {
+        // An influence length given in cells would shrink with the cell, so the proposal fixes it in um.
         let length = scene.wall.influence_length();
         let same_walls = match length > 0.0 && length.is_finite() {
             true => format!(" and contact.influence_length = \"{:.6} um\"", 1e6 * length),
@@ -52,18 +52,17 @@ pub(crate) fn told(scene: &Scene) -> Vec<Remark> {
         out.push(Remark {
             what: "proposed",
             why: format!(
-                "one voxel a cell, grid.cell = \"{um:.6} um\"{same_walls}: fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more"
+                "cells of one voxel, grid.cell = \"{um:.6} um\"{same_walls}: with fewer than {FEWEST_CELLS} cells across, pressure and flow are off by 10 % and more"
             ),
         });
     }
     out
 }
 
-/// How many runs of void have each length, voxels.
+/// Number of chords by length (voxels).
 type Lengths = BTreeMap<usize, u64>;
 
-/// Half of the void volume is in runs up to this one: what flows there counts, and pits and rays,
-/// many and short, do not.
+/// Median chord weighted by volume, so that the many short chords of pits and rays do not dominate.
 fn median(lengths: &Lengths) -> Option<usize> {
     let volume = |(&length, &n): (&usize, &u64)| length as u64 * n;
     let all: u64 = lengths.iter().map(volume).sum();
@@ -75,20 +74,19 @@ fn median(lengths: &Lengths) -> Option<usize> {
     half.map(|(&length, _)| length)
 }
 
-/// Chords of the voids from wood to wood along the bond, near its surface: at the upper end of the
-/// block or at the lower one. Of the two directions that in which voids are shorter; the other is
-/// the grain.
+/// Chords of the voids near the bond surface, from wood to wood and across the grain. The surface is the upper face of the
+/// block if `up`, else the lower one. The grain is the direction in the bond plane with the longer voids.
 fn across_grain(block: &VoxelBlock, up: bool) -> Lengths {
     let [nx, ny, nz] = block.dims();
     let depth = LAYERS.min(ny);
     let layers = if up { ny - depth..ny } else { 0..depth };
-    let mut found = [Runs::default(), Runs::default()];
+    let mut found = [Stretches::default(), Stretches::default()];
     for j in layers {
         for k in 0..nz {
-            found[0].line(nx, |i| block.solid(i, j, k));
+            found[0].add_line(nx, |i| block.solid(i, j, k));
         }
         for i in 0..nx {
-            found[1].line(nz, |k| block.solid(i, j, k));
+            found[1].add_line(nz, |k| block.solid(i, j, k));
         }
     }
     let [x, z] = found;
@@ -99,17 +97,17 @@ fn across_grain(block: &VoxelBlock, up: bool) -> Lengths {
     }
 }
 
-/// Runs of void along lines that wood interrupts.
+/// Stretches of void along lines of voxels.
 #[derive(Default)]
-struct Runs {
-    /// Those with wood at both ends.
+struct Stretches {
+    /// Stretches with wood at both ends.
     chords: Lengths,
-    /// Void voxels and runs of all kinds.
+    /// Void voxels and stretches, those at the edge of the block included.
     total: [u64; 2],
 }
 
-impl Runs {
-    fn line(&mut self, length: usize, solid: impl Fn(usize) -> bool) {
+impl Stretches {
+    fn add_line(&mut self, length: usize, solid: impl Fn(usize) -> bool) {
         let mut start = 0;
         for end in 0..=length {
             if end < length && !solid(end) {
@@ -126,11 +124,11 @@ impl Runs {
         }
     }
 
-    /// Mean length, voxels; none is longer than any.
+    /// Mean length, voxels; infinite if there is no void.
     fn mean(&self) -> f64 {
         match self.total {
             [_, 0] => f64::INFINITY,
-            [voxels, runs] => voxels as f64 / runs as f64,
+            [voxels, stretches] => voxels as f64 / stretches as f64,
         }
     }
 }
@@ -139,8 +137,8 @@ impl Runs {
 mod tests {
     use super::*;
 
-    /// Lumens of seven voxels along z or x, walls of five with pits of one, which are more; end walls that close
-    /// a lumen here and there. The void deep below the bond and the run at the side do not count.
+    /// Lumens seven voxels wide along z or x; walls of five voxels with pits of one, which outnumber the lumens; end walls that
+    /// close a lumen here and there. Voids deep below the bond and at the edge of the block do not count.
     #[test]
     fn the_median_chord_across_the_grain_at_the_bond() {
         for along_z in [true, false] {

@@ -1,8 +1,8 @@
-//! Where a run is in time.
+//! Progress of a run in time.
 
 use physics::StepReport;
 
-/// Where a run is in time, and what it has written.
+/// Progress of a run: time, clamp travel and output written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Clock {
     /// Steps taken.
@@ -11,33 +11,33 @@ pub(crate) struct Clock {
     pub(crate) time_s: f64,
     /// Clamp travel, m.
     pub(crate) travel_m: f64,
-    /// When the next row of the history is due, s.
+    /// Time of the next row of the history, s.
     pub(crate) next_history_s: f64,
-    /// When the next snapshot is due, s.
+    /// Time of the next snapshot, s.
     pub(crate) next_snapshot_s: f64,
     /// Snapshots written.
     pub(crate) snapshots: u32,
-    /// Report of the last step, which the end of a run quotes.
-    pub(crate) last: StepReport,
-    /// Whether that step has no row in the history.
+    /// Report of the last step.
+    pub(crate) last_step: StepReport,
+    /// Whether the last step has no row in the history yet.
     pub(crate) row_missing: bool,
 }
 
 impl Clock {
-    /// Takes in a step.
-    pub(crate) fn took(&mut self, report: StepReport) {
+    /// Advances by the step of `report`.
+    pub(crate) fn advance(&mut self, report: StepReport) {
         self.step += 1;
         self.time_s += report.dt_s;
         self.travel_m = report.travel_m;
-        self.last = report;
+        self.last_step = report;
         self.row_missing = true;
     }
 
-    /// Refuses what is no place in time; `header_s` is the time that the file's header says.
+    /// Refuses the clock of a damaged checkpoint; `header_s` is the time in the file's header.
     pub(crate) fn check(&self, header_s: f64) -> Result<(), String> {
-        /// Steps that a double counts one by one.
+        /// Largest step number that a double holds exactly.
         const MOST_STEPS: u64 = 1 << 53;
-        let due = |t: f64| t >= 0.0; // infinite where nothing is due
+        let due = |t: f64| t >= 0.0; // infinite if nothing is due
         let sound = self.time_s == header_s
             && self.travel_m.is_finite()
             && due(self.next_history_s)
@@ -45,7 +45,7 @@ impl Clock {
             && self.step <= MOST_STEPS;
         match sound {
             true => Ok(()),
-            false => Err(format!("its clock is not that of a run: {self:?}")),
+            false => Err(format!("its clock is invalid: {self:?}")),
         }
     }
 }

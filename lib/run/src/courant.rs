@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// From which step on a run was taken at which Courant number.
+/// Courant number of a run from a step on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Courant {
     /// Steps taken before.
@@ -11,8 +11,8 @@ pub struct Courant {
     pub cfl: f64,
 }
 
-/// The record of a run that goes on after `step` at `cfl`.
-pub(crate) fn continued(mut record: Vec<Courant>, step: u64, cfl: f64) -> Vec<Courant> {
+/// The `record` of a run that continues after `step` with Courant number `cfl`.
+pub(crate) fn continue_record(mut record: Vec<Courant>, step: u64, cfl: f64) -> Vec<Courant> {
     record.retain(|past| past.after_step < step);
     if record.last().is_none_or(|last| last.cfl != cfl) {
         record.push(Courant {
@@ -23,8 +23,8 @@ pub(crate) fn continued(mut record: Vec<Courant>, step: u64, cfl: f64) -> Vec<Co
     record
 }
 
-/// The case text without its Courant number: the same for two runs of which one may continue
-/// the other. What is no TOML stays as it is.
+/// The case text without its Courant number: equal for two runs if one may continue the other. A text that is no TOML is
+/// returned as it is.
 pub(crate) fn without_cfl(text: &str) -> String {
     let Ok(mut root) = toml::from_str::<toml::Table>(text) else {
         return text.into();
@@ -42,15 +42,15 @@ mod tests {
     #[test]
     fn the_record_holds_a_change_once_and_not_those_that_took_no_step() {
         let at = |after_step, cfl| Courant { after_step, cfl };
-        let begun = continued(Vec::new(), 0, 1.0);
+        let begun = continue_record(Vec::new(), 0, 1.0);
         assert_eq!(begun, [at(0, 1.0)]);
-        assert_eq!(continued(begun.clone(), 7, 1.0), begun);
-        let changed = continued(begun.clone(), 7, 0.5);
+        assert_eq!(continue_record(begun.clone(), 7, 1.0), begun);
+        let changed = continue_record(begun.clone(), 7, 0.5);
         assert_eq!(changed, [at(0, 1.0), at(7, 0.5)]);
         assert_eq!(
-            continued(changed.clone(), 7, 0.25),
+            continue_record(changed.clone(), 7, 0.25),
             [at(0, 1.0), at(7, 0.25)]
         );
-        assert_eq!(continued(changed, 7, 1.0), begun);
+        assert_eq!(continue_record(changed, 7, 1.0), begun);
     }
 }

@@ -1,18 +1,18 @@
-//! Liquid that is where there is no room for it.
+//! Overfull blocks of cells: liquid in excess of the volume there.
 
 use physics::{Dimensions, LiquidState, Scene};
 
-/// Edge of the blocks that liquid is counted in, cells: of single cells, material points fill some half as much
-/// again by where they happen to be.
-const BLOCK: f64 = 2.0;
-/// Part of a block's room that the points in it may fill.
-const FULL: f64 = 1.5;
+/// Edge of the blocks in which liquid is counted, cells. Single cells are too small: by chance, material points fill some
+/// to 150 %.
+const BLOCK_CELLS: f64 = 2.0;
+/// Fraction of a block's volume up to which it is not overfull.
+const FULL_FRACTION: f64 = 1.5;
 
-/// Part of the liquid's volume that lies beyond [`FULL`] in its block, wood or not.
-pub(crate) fn crowded(scene: &Scene, liquid: &LiquidState) -> f64 {
+/// Fraction of the liquid's volume in excess of [`FULL_FRACTION`] in its block. Wood in a block is ignored.
+pub(crate) fn crowded_fraction(scene: &Scene, liquid: &LiquidState) -> f64 {
     let grid = &scene.grid;
-    let edge = BLOCK * grid.cell_m;
-    let count: [usize; 3] = grid.cells.map(|n| (n as f64 / BLOCK).ceil() as usize);
+    let edge = BLOCK_CELLS * grid.cell_m;
+    let count: [usize; 3] = grid.cells.map(|n| (n as f64 / BLOCK_CELLS).ceil() as usize);
     let room = match scene.dimensions {
         Dimensions::Two => edge * edge * grid.cell_m,
         Dimensions::Three => edge.powi(3),
@@ -26,8 +26,11 @@ pub(crate) fn crowded(scene: &Scene, liquid: &LiquidState) -> f64 {
         filled[(k * count[1] + j) * count[0] + i] += f64::from(volume);
     }
     let whole: f64 = filled.iter().sum();
-    let beyond: f64 = filled.iter().map(|v| (v - FULL * room).max(0.0)).sum();
-    // Of little liquid a cell more or less is chance.
+    let beyond: f64 = filled
+        .iter()
+        .map(|v| (v - FULL_FRACTION * room).max(0.0))
+        .sum();
+    // One cell of excess is chance where there is little liquid.
     let beyond = (beyond - grid.cell_m.powi(3)).max(0.0);
     if whole > 0.0 { beyond / whole } else { 0.0 }
 }
@@ -36,7 +39,7 @@ pub(crate) fn crowded(scene: &Scene, liquid: &LiquidState) -> f64 {
 mod tests {
     use super::*;
 
-    /// One block of two cells a side: a tenth more than it may hold, and a cell, is all that counts.
+    /// One block of two cells a side: the first cell of excess does not count.
     #[test]
     fn what_lies_beyond_one_and_a_half_times_the_room_counts_less_a_cell() {
         // Plane strain: one cell deep.
@@ -49,7 +52,7 @@ mod tests {
                 volume: vec![(times * room * cell_m.powi(3)) as f32],
                 ..LiquidState::default()
             };
-            crowded(&scene, &liquid)
+            crowded_fraction(&scene, &liquid)
         };
         assert_eq!(filled(1.5 + 0.9 / room), 0.0);
         for times in [2.0, 4.0] {

@@ -1,5 +1,4 @@
-//! The error to expect of a run, quoted from the measured table of `make tradeoff`
-//! (docs/results/tradeoff.md).
+//! Expected error of a run, from the table measured by `make tradeoff` (docs/results/tradeoff.md).
 
 use physics::Choice;
 
@@ -11,53 +10,53 @@ use crate::schemes;
 const TABLE: &str = include_str!("expected_error.csv");
 
 /// `out/quick/errors.csv` of `make` (docs/results/README.md, error by cell size); not to be edited.
-const TWO_SIZES: &str = include_str!("cell_error.csv");
-/// Cells across a lumen of the coarser runs there, of two voxels each.
-const COARSER: f64 = 6.0;
+const CELL_ERRORS: &str = include_str!("cell_error.csv");
+/// Cells across a lumen in the coarser runs of that table, whose cells are two voxels wide.
+const COARSER_CELLS: f64 = 6.0;
 
-/// Width of the lumens that the study measured and the paper's wood has (section 2.3), m.
+/// Lumen width in the study and in the paper's wood (section 2.3), m.
 const LUMEN_M: f64 = 17.4e-6;
 
 /// One row of the table.
 #[derive(Clone, Debug, PartialEq)]
 struct Measured {
-    /// Scheme, update, order, shape, pressure, projection.
+    /// Scheme, velocity update, order, shape function, pressure, density projection.
     key: [&'static str; 6],
     cells: f64,
     /// Relative errors: piston force, channel flux, pressure and WP of a small bond line.
     errors: [Option<f64>; 4],
 }
 
-/// What was measured of a case's scheme and options, at about its cells.
+/// Measured errors for a case's scheme and options, at the cell size nearest to its own.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ExpectedError {
-    /// Cells of the case across a lumen of 17.4 um.
+    /// Cells of the case across a lumen 17.4 um wide.
     pub cells_per_lumen: f64,
-    /// Cells with which it was measured; none where this update, shape and options were not.
+    /// Cells across that lumen in the measurement; `None` if these options were not measured.
     pub measured_with_cells: Option<f64>,
     /// The errors.
     pub errors: Vec<QuantityError>,
-    /// Settings of which the case has others than the measurement, which had the default.
+    /// Settings in which the case differs from the measurement, which used the defaults.
     pub not_as_measured: Vec<&'static str>,
 }
 
-/// The error of one quantity in one scene.
+/// Measured error of one quantity in one scene.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct QuantityError {
-    /// Of what.
+    /// Name of the quantity.
     pub quantity: &'static str,
-    /// Where it was measured.
+    /// Scene of the measurement.
     pub scene: &'static str,
-    /// Its size over the quantity's.
+    /// Relative error.
     pub relative: f64,
 }
 
-/// How far the implicit scheme's pressure is off from that of short steps in the step in which one of two lumens fills
+/// Relative error of the implicit scheme's pressure in the step in which one of two lumens fills, against short steps
 /// (`cargo test -p implicit --test scheme a_lumen_that_fills`).
-const FILLING: f64 = 0.67;
+const FILLING_STEP_ERROR: f64 = 0.67;
 
-/// The error to expect of a case in cells of `cell_m`.
-pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
+/// The expected error of `case` with cells of `cell_m` (m).
+pub(crate) fn expect(case: &Case, cell_m: f64) -> ExpectedError {
     let cells = LUMEN_M / cell_m;
     let row = nearest(&key(case), cells);
     let (press, bond) = ("piston into slit", "a small bond line");
@@ -69,7 +68,7 @@ pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
         (
             "clamp pressure",
             "the step in which one of two lumens fills",
-            two_sizes.map(|_| FILLING),
+            two_sizes.map(|_| FILLING_STEP_ERROR),
         ),
         ("flow in lumens", "plane channel", channel),
         ("WP", bond, wp),
@@ -102,9 +101,9 @@ pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
     }
 }
 
-/// The lines of `--explain` about a case in cells of `cell_m`.
+/// The lines of `--explain` on the expected error of `case` with cells of `cell_m` (m).
 pub(crate) fn text(case: &Case, cell_m: f64) -> String {
-    let expected = of(case, cell_m);
+    let expected = expect(case, cell_m);
     let across = expected.cells_per_lumen;
     let mut out = "\nerror to expect (measured, docs/results/tradeoff.md)\n".to_owned();
     out += &line("lumen of 17.4 um", format!("{across:.1} cells across"));
@@ -130,7 +129,7 @@ pub(crate) fn text(case: &Case, cell_m: f64) -> String {
     }
 }
 
-/// What of a case selects rows.
+/// The options of a case by which rows of the table are selected.
 fn key(case: &Case) -> [String; 6] {
     let table = &case.integrator;
     let scheme = table.scheme.name();
@@ -151,7 +150,7 @@ fn key(case: &Case) -> [String; 6] {
     key.map(str::to_owned)
 }
 
-/// The row of this key whose cells are nearest, by ratio.
+/// The measured row with this key whose number of cells is nearest, by ratio.
 fn nearest(key: &[impl AsRef<str>; 6], cells: f64) -> Option<Measured> {
     let far = |row: &Measured| (row.cells / cells).ln().abs();
     rows()
@@ -161,17 +160,20 @@ fn nearest(key: &[impl AsRef<str>; 6], cells: f64) -> Option<Measured> {
         .min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
-/// The largest error of a total WP by two sizes of cells over that WP, where those of `row` are the coarser.
+/// Largest relative error of a total WP from runs with two cell sizes, if `row` has the coarser cells of these runs.
 fn worst_of_two_sizes(row: &Measured) -> Option<f64> {
-    let is_coarser = row.key[0] == SchemeName::Implicit.name() && row.cells == COARSER;
-    let errors = TWO_SIZES.lines().filter(|_| is_coarser).filter_map(|line| {
-        let [_, _, "wp", "total", _, _, extrapolated, error, ..] =
-            line.split(',').collect::<Vec<_>>()[..]
-        else {
-            return None;
-        };
-        Some(error.parse::<f64>().ok()? / extrapolated.parse::<f64>().ok()?)
-    });
+    let is_coarser = row.key[0] == SchemeName::Implicit.name() && row.cells == COARSER_CELLS;
+    let errors = CELL_ERRORS
+        .lines()
+        .filter(|_| is_coarser)
+        .filter_map(|line| {
+            let [_, _, "wp", "total", _, _, extrapolated, error, ..] =
+                line.split(',').collect::<Vec<_>>()[..]
+            else {
+                return None;
+            };
+            Some(error.parse::<f64>().ok()? / extrapolated.parse::<f64>().ok()?)
+        });
     errors.reduce(f64::max)
 }
 

@@ -7,7 +7,7 @@ use physics::{
 
 use crate::case::{Case, SchemeName};
 use crate::forecast::{Forecast, line};
-use crate::left_out::{Remark, left_out};
+use crate::omissions::{Remark, omissions};
 use crate::resolve::Setup;
 use crate::{chords, expected_error, summary};
 
@@ -29,11 +29,11 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
         "\ncost (estimated)\n",
         &cost(setup, forecast),
         &expected_error::text(case, setup.scene.grid.cell_m),
-        &lines(chords::told(&setup.scene)),
+        &lines(chords::remarks(&setup.scene)),
         "\nregime\n",
         &regime,
         "\nleft out\n",
-        &lines(left_out(case, setup, &forecast.stages)),
+        &lines(omissions(case, setup, &forecast.stages)),
     ]
     .concat()
 }
@@ -51,7 +51,7 @@ fn scene(setup: &Setup) -> String {
     let [x, y, z] = scene.boundary.map(Choice::name);
     out += &line("sides", format!("x {x}, y {y}, z {z}"));
     for (index, stage) in scene.programme.iter().enumerate() {
-        out += &line(&format!("stage {}", index + 1), told(index, stage));
+        out += &line(&format!("stage {}", index + 1), stage_text(index, stage));
     }
     if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
         let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
@@ -62,7 +62,7 @@ fn scene(setup: &Setup) -> String {
     out + &line("end", end(setup))
 }
 
-/// What the liquid is and does.
+/// The liquid and its laws.
 fn liquid(setup: &Setup) -> String {
     let (liquid, cell_m) = (&setup.scene.liquid, setup.scene.grid.cell_m);
     let (points, volume) = (setup.liquid.points, setup.liquid.volume_m3);
@@ -96,15 +96,18 @@ fn liquid(setup: &Setup) -> String {
     let wetting = liquid
         .wetting
         .as_ref()
-        .map(|wetting| wetted(wetting, cell_m));
+        .map(|wetting| wetting_text(wetting, cell_m));
     out.extend(wetting.map(|told| line("wetting", told)));
-    let water = liquid.water.as_ref().map(|water| dried(water, cell_m));
+    let water = liquid
+        .water
+        .as_ref()
+        .map(|water| drying_text(water, cell_m));
     out.extend(water.map(|told| line("loss of water", told)));
     out
 }
 
-/// What the walls do to liquid in a slit of six cells of `cell_m`.
-fn wetted(wetting: &Wetting, cell_m: f64) -> String {
+/// Wetting, with the capillary pressure in a slit six cells of `cell_m` (m) wide.
+fn wetting_text(wetting: &Wetting, cell_m: f64) -> String {
     let way = match wetting.adhesion() >= 0.0 {
         true => "drawn in",
         false => "held back",
@@ -117,8 +120,8 @@ fn wetted(wetting: &Wetting, cell_m: f64) -> String {
     )
 }
 
-/// What the loss of water does in a tube of six cells of `cell_m` that nothing flows into.
-fn dried(water: &Water, cell_m: f64) -> String {
+/// Loss of water, with the times of drying and diffusion in a tube six cells of `cell_m` (m) wide without inflow.
+fn drying_text(water: &Water, cell_m: f64) -> String {
     let radius = 3.0 * cell_m;
     let [start, least] = [water.start(), water.least()];
     let leaves = (start - least) / (1.0 + start);
@@ -132,7 +135,7 @@ fn dried(water: &Water, cell_m: f64) -> String {
     )
 }
 
-/// What is rigid.
+/// The rigid bodies and the wall law.
 fn walls(scene: &Scene) -> String {
     let mut out = String::new();
     for body in &scene.bodies {
@@ -180,7 +183,7 @@ fn end(setup: &Setup) -> String {
 }
 
 /// A stage of a press programme.
-fn told(index: usize, stage: &PressStage) -> String {
+fn stage_text(index: usize, stage: &PressStage) -> String {
     let mut said = format!(
         "{} (--set clamp.stage.{index}...), at most {:.4e} m/s",
         stage.kind.name(),
@@ -227,7 +230,7 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
     out
 }
 
-/// How many steps, and what time they take.
+/// Number of steps, and run time.
 fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
     if !setup.scene.programme.is_empty() {
         let not = "not forecast for a press programme: tens to hundreds (docs/results/press.md), more with surface tension";
@@ -248,7 +251,7 @@ fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
     ]
 }
 
-/// A number of steps, in full where it is readable.
+/// A number of steps, in full below 1e9.
 fn count(steps: f64) -> String {
     if steps < 1e9 {
         format!("{steps:.0}")

@@ -1,12 +1,12 @@
-//! Why a run could not be made ready or did not end well.
+//! Failures of a run.
 
 use std::io;
 use std::path::Path;
 
-/// Why a run could not be made ready or did not end well; tools map it to exit status.
+/// Why a run could not start or failed; tools map it to an exit status.
 #[derive(Debug, thiserror::Error)]
 pub enum RunFailure {
-    /// Usage or case file (exit 2).
+    /// Wrong usage or case file (exit 2).
     #[error("{0}")]
     Usage(String),
     /// Unreadable or corrupt data (exit 3).
@@ -15,14 +15,14 @@ pub enum RunFailure {
     /// The run failed (exit 1).
     #[error("{0}")]
     Run(String),
-    /// The state is no longer sound (exit 1): the same run fails again.
+    /// The state is no longer sound (exit 1); the same run would fail again.
     #[error("{said}{checkpoint}")]
     Unstable {
-        /// What went wrong, the same however often the run was continued.
+        /// What went wrong, independent of how often the run was continued.
         said: String,
         /// Last step taken.
         step: u64,
-        /// Its time, s.
+        /// Time after that step, s.
         time_s: f64,
         /// Where the last good checkpoint is, as the end of the sentence.
         checkpoint: String,
@@ -30,7 +30,7 @@ pub enum RunFailure {
 }
 
 impl RunFailure {
-    /// Of an output at `path` that could not be written.
+    /// The failure to write `path`.
     pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
         move |error| RunFailure::Run(format!("cannot write {}: {error}", path.display()))
     }
@@ -42,7 +42,7 @@ impl From<particle_file::Error> for RunFailure {
     }
 }
 
-/// Refuses a case with a sentence.
+/// Refuses a case with the sentence `said`.
 pub(crate) fn refused<T>(said: impl Into<String>) -> Result<T, RunFailure> {
     Err(RunFailure::Usage(said.into()))
 }

@@ -1,16 +1,16 @@
-//! The run folder: marked as one, held by one run at a time, written file by file.
+//! The run folder: carries a mark, is locked by one run at a time, and is written file by file.
 //!
-//! The order of writing, by which `--resume` comes to the same end after a kill anywhere:
+//! The order of writing, which lets `--resume` reach the same end after a kill at any time:
 //!
-//! 1. New run: `final.mpts`, `checkpoint.mpts`, `summary.json`, `history.csv` and snapshots of the run that is replaced go, in
-//!    this order; then `resolved.toml` and `history.csv` with its header are written.
-//! 2. A row is one `write` to the end of `history.csv`. Every other file is written beside its name, synced and renamed, and its
-//!    folder is synced.
-//! 3. Checkpoint: `history.csv` is synced, then `checkpoint.mpts` takes the place of the one before.
-//! 4. Continued run: `history.csv` begins as the checkpoint says (length and hash), else the run ends with 3. It is cut there;
-//!    later snapshots and `summary.json` go.
-//! 5. End: last row, sync, `summary.json`, `final.mpts`, and the checkpoint goes. A checkpoint beside `final.mpts` only waits to be
-//!    removed.
+//! 1. New run: `final.mpts`, `checkpoint.mpts`, `summary.json`, `history.csv` and snapshots of the earlier run are removed, in
+//!    this order; then `resolved.toml` and the header of `history.csv` are written.
+//! 2. A row is one `write` to the end of `history.csv`. Every other file is written under a temporary name, synced and renamed,
+//!    and its folder is synced.
+//! 3. Checkpoint: `history.csv` is synced, then `checkpoint.mpts` replaces the one before.
+//! 4. Continued run: the start of `history.csv` must match the checkpoint (length and hash), else the run ends with 3. The rest
+//!    of it is cut off; later snapshots and `summary.json` are removed.
+//! 5. End: last row, sync, `summary.json`, `final.mpts`, then the checkpoint is removed. A checkpoint beside `final.mpts` is a
+//!    leftover.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -21,45 +21,45 @@ use std::path::{Path, PathBuf};
 use particle_file::{Provenance, RUN_MARK};
 
 use crate::failure::RunFailure;
-use crate::files::{is_still, is_there, sync_folder};
+use crate::files::{check_not_replaced, is_taken, sync_folder};
 use crate::folder_mark;
 
-/// The state a run ended with; once it is there, the run has ended.
+/// The final state; a run with this file has ended.
 pub(crate) const FINAL: &str = "final.mpts";
-/// What a run continues from.
+/// The state from which a run continues.
 pub(crate) const CHECKPOINT: &str = "checkpoint.mpts";
-/// What a run was, did and cost.
+/// The summary: end, verdict, measures and cost of the run.
 pub(crate) const SUMMARY: &str = "summary.json";
-/// One row per interval.
+/// The history: one row per interval.
 pub(crate) const HISTORY: &str = "history.csv";
 /// The case as run.
 pub(crate) const RESOLVED: &str = "resolved.toml";
 /// The folder of the snapshots.
 pub(crate) const SNAPSHOTS: &str = "snapshots";
-/// A file on its way to one of the names above, in the same folder as that.
-pub(crate) const ASIDE: &str = ".mpm-run.tmp";
+/// Temporary name of a file while it is written, in its folder.
+pub(crate) const TEMPORARY: &str = ".mpm-run.tmp";
 
 /// Name of a snapshot in the run folder.
 pub(crate) fn snapshot_name(number: u32) -> String {
     format!("{SNAPSHOTS}/{number:04}.mpts")
 }
 
-/// A run folder held by this process, which no other run can hold at the same time.
+/// A run folder, locked by this process against other runs.
 #[derive(Debug)]
 pub(crate) struct RunFolder {
     path: PathBuf,
-    /// Open and locked until the process ends, however it ends.
+    /// The mark, open and locked until the process ends or dies.
     marker: File,
-    /// Why it could not be locked.
+    /// Why the mark could not be locked.
     unlocked: Option<io::Error>,
-    /// Permissions of files that were removed, for those that come in their place.
+    /// Permissions of removed files, for the files that replace them.
     removed: RefCell<HashMap<PathBuf, Permissions>>,
 }
 
 impl RunFolder {
-    /// The folder at `path` if it is marked as a run folder, held from now on.
-    /// Errors: what is no folder, or is held by another run.
-    pub(crate) fn find(path: &Path, by: &Provenance) -> Result<Option<Self>, RunFailure> {
+    /// Locks the folder at `path`; `None` if it has no mark of a run folder or does not exist.
+    /// Errors: no folder, or one locked by another run.
+    pub(crate) fn lock_existing(path: &Path, by: &Provenance) -> Result<Option<Self>, RunFailure> {
         match fs::metadata(path) {
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(e) => return Err(RunFailure::write(path)(e)),
@@ -71,23 +71,22 @@ impl RunFolder {
                 )));
             }
         }
-        if !is_there(&path.join(RUN_MARK)) {
+        if !is_taken(&path.join(RUN_MARK)) {
             return Ok(None);
         }
-        Self::hold(path, by).map(Some)
+        Self::lock(path, by).map(Some)
     }
 
-    /// Makes a run folder at `path`, of a folder that is there too if it holds none of a run's
-    /// names.
-    /// Errors: what cannot become a run folder, or is held by another run by now.
+    /// Makes a run folder at `path`. An existing folder may be used if it holds no file with a name of a run.
+    /// Errors: a folder that cannot become a run folder, or was locked by another run meanwhile.
     pub(crate) fn make(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
         fs::create_dir_all(path).map_err(RunFailure::write(path))?;
         let names = [
-            FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS, ASIDE,
+            FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS, TEMPORARY,
         ];
-        let taken = names.iter().find(|name| is_there(&path.join(name)));
-        // Another run may have marked it since; that one holds it or is said to be there.
-        if let Some(name) = taken.filter(|_| !is_there(&path.join(RUN_MARK))) {
+        let taken = names.iter().find(|name| is_taken(&path.join(name)));
+        // Another run may have marked the folder since; `lock` or the check of earlier runs handles that.
+        if let Some(name) = taken.filter(|_| !is_taken(&path.join(RUN_MARK))) {
             return Err(RunFailure::Usage(format!(
                 "'{0}' holds '{name}' but is not marked as a run folder, so nothing in it is replaced or continued: \
                  name another folder, or, if it is a run of an earlier version, create an empty file '{1}' and use --overwrite",
@@ -95,19 +94,19 @@ impl RunFolder {
                 path.join(RUN_MARK).display(),
             )));
         }
-        let held = Self::hold(path, by)?;
+        let folder = Self::lock(path, by)?;
         let place = fs::canonicalize(path).ok();
         if let Some(parent) = place.as_deref().and_then(Path::parent) {
             sync_folder(parent).map_err(RunFailure::write(path))?;
         }
-        Ok(held)
+        Ok(folder)
     }
 
-    /// Opens and locks the marker and completes one that is empty or cut off.
-    fn hold(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
+    /// Opens and locks the mark, and completes one that is empty or cut off.
+    fn lock(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
         let place = path.join(RUN_MARK);
         if fs::symlink_metadata(&place).is_ok_and(|found| !found.is_file()) {
-            return Err(folder_mark::unknown(&place));
+            return Err(folder_mark::not_a_mark(&place));
         }
         let open = File::options()
             .read(true)
@@ -136,7 +135,7 @@ impl RunFolder {
         })
     }
 
-    /// A warning where the file system has no locks: two runs would not notice each other.
+    /// A warning if the file system has no locks: two runs would not notice each other.
     pub(crate) fn warning(&self) -> Option<String> {
         let error = self.unlocked.as_ref()?;
         Some(format!(
@@ -145,31 +144,31 @@ impl RunFolder {
         ))
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where `name` is or would be.
-    pub(crate) fn place(&self, name: &str) -> PathBuf {
+    /// Path of `name` in the folder.
+    pub(crate) fn path_of(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
-    /// Writes `name` whole or not at all: beside its place, to the disk, and then renamed. It keeps the permissions of
-    /// what stood there.
-    /// Errors: the file and the system's reason; a file there that is write-protected.
+    /// Writes `name` whole or not at all: under a temporary name, synced, and then renamed. The permissions of the replaced file
+    /// are kept.
+    /// Errors: the file and the system's reason; the replaced file is write-protected.
     pub(crate) fn write_whole(
         &self,
         name: &str,
         body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), RunFailure> {
-        let path = self.place(name);
+        let path = self.path_of(name);
         let within = path.parent().unwrap_or(&self.path);
-        let aside = within.join(ASIDE);
-        let place = self.place(RUN_MARK);
-        is_still(&self.marker, &place).map_err(RunFailure::write(&place))?;
+        let aside = within.join(TEMPORARY);
+        let place = self.path_of(RUN_MARK);
+        check_not_replaced(&self.marker, &place).map_err(RunFailure::write(&place))?;
         let replaced = machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
-        // A new file, so that nothing is written through a link.
+        // Must be a new file, so that nothing is written through a link.
         let file = File::create_new(&aside).map_err(RunFailure::write(&path))?;
         let write = || {
             if let Some(permissions) = replaced.or_else(|| self.removed.borrow_mut().remove(&path))
@@ -183,7 +182,7 @@ impl RunFolder {
             sync_folder(within)
         };
         write().map_err(|error| {
-            // The failed attempt is of no use; that it cannot be removed changes nothing.
+            // A leftover that cannot be removed does no harm.
             let _ = fs::remove_file(&aside);
             RunFailure::write(&path)(error)
         })
@@ -194,9 +193,9 @@ impl RunFolder {
         self.write_whole(name, |out| out.write_all(text.as_bytes()))
     }
 
-    /// Removes the file `name`; one that is not there need not be removed.
+    /// Removes the file `name`, if it exists.
     pub(crate) fn remove(&self, name: &str) -> Result<(), RunFailure> {
-        let path = self.place(name);
+        let path = self.path_of(name);
         let remove = || match machine::replaced_permissions(&path)? {
             Some(permissions) => {
                 fs::remove_file(&path)?;
@@ -208,15 +207,15 @@ impl RunFolder {
         remove().map_err(RunFailure::write(&path))
     }
 
-    /// Fails where nothing can be written, or one of `names` is write-protected, before anything is removed to make room.
+    /// Fails if the folder is not writable or one of `names` is write-protected. Called before anything is removed.
     /// Errors: the folder or file and the reason.
     pub(crate) fn check_writable(&self, names: &[String]) -> Result<(), RunFailure> {
         for name in names {
-            let path = self.place(name);
+            let path = self.path_of(name);
             machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
         }
-        for within in [self.path.clone(), self.place(SNAPSHOTS)] {
-            let aside = within.join(ASIDE);
+        for within in [self.path.clone(), self.path_of(SNAPSHOTS)] {
+            let aside = within.join(TEMPORARY);
             match File::create_new(&aside).and_then(|_| fs::remove_file(&aside)) {
                 Err(e) if e.kind() == io::ErrorKind::NotFound => {}
                 tried => tried.map_err(RunFailure::write(&within))?,
@@ -225,9 +224,9 @@ impl RunFolder {
         Ok(())
     }
 
-    /// Makes the folder of the snapshots, in a run folder that must still be there.
+    /// Makes the folder of the snapshots; the run folder itself must still exist.
     pub(crate) fn make_snapshots(&self) -> Result<(), RunFailure> {
-        let path = self.place(SNAPSHOTS);
+        let path = self.path_of(SNAPSHOTS);
         match fs::create_dir(&path) {
             Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok(()),
             made => made.and_then(|()| sync_folder(&self.path)),
@@ -248,8 +247,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// A run folder for a test, and what keeps it there.
-    pub(crate) fn held() -> (tempfile::TempDir, RunFolder) {
+    /// A run folder for a test, with the guard of its temporary folder.
+    pub(crate) fn test_folder() -> (tempfile::TempDir, RunFolder) {
         let place = tempfile::tempdir().unwrap();
         let folder = RunFolder::make(place.path(), &by("1")).unwrap();
         (place, folder)
@@ -257,7 +256,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_folder_without_locks_is_used_with_a_warning() {
-        let (place, mut folder) = held();
+        let (place, mut folder) = test_folder();
         assert_eq!(folder.warning(), None);
         folder.unlocked = Some(io::ErrorKind::Unsupported.into());
         let said = folder.warning().unwrap();
@@ -267,14 +266,14 @@ pub(crate) mod tests {
 
     #[test]
     fn whether_files_can_be_made_is_tried_in_both_folders() {
-        let (place, folder) = held();
+        let (place, folder) = test_folder();
         folder.make_snapshots().unwrap();
         for within in [place.path().to_owned(), place.path().join(SNAPSHOTS)] {
             folder.check_writable(&[]).unwrap();
-            assert!(!is_there(&within.join(ASIDE)));
-            fs::write(within.join(ASIDE), "theirs").unwrap();
+            assert!(!is_taken(&within.join(TEMPORARY)));
+            fs::write(within.join(TEMPORARY), "theirs").unwrap();
             assert!(folder.check_writable(&[]).is_err());
-            fs::remove_file(within.join(ASIDE)).unwrap();
+            fs::remove_file(within.join(TEMPORARY)).unwrap();
         }
         fs::remove_dir(place.path().join(SNAPSHOTS)).unwrap();
         folder.check_writable(&[]).unwrap();
@@ -282,7 +281,7 @@ pub(crate) mod tests {
 
     #[test]
     fn a_failed_write_leaves_the_old_file_and_no_litter() {
-        let (place, folder) = held();
+        let (place, folder) = test_folder();
         folder.write_text(SUMMARY, "1").unwrap();
         let full = |out: &mut dyn Write| {
             out.write_all(b"half")?;
@@ -290,9 +289,9 @@ pub(crate) mod tests {
         };
         assert!(folder.write_whole(SUMMARY, full).is_err());
         assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
-        // A file of that name, which a link could be, is not written through.
-        fs::write(place.path().join(ASIDE), "theirs").unwrap();
+        // An existing file of the temporary name, which could be a link, is not overwritten.
+        fs::write(place.path().join(TEMPORARY), "theirs").unwrap();
         assert!(folder.write_text(SUMMARY, "2").is_err());
-        assert_eq!(fs::read(place.path().join(ASIDE)).unwrap(), b"theirs");
+        assert_eq!(fs::read(place.path().join(TEMPORARY)).unwrap(), b"theirs");
     }
 }

@@ -1,4 +1,4 @@
-//! The mark of a run folder: a file that says what the folder is.
+//! The mark of a run folder: a file that identifies it.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -8,10 +8,10 @@ use particle_file::Provenance;
 
 use crate::failure::RunFailure;
 
-/// Layout of a run folder.
+/// Version of the layout of run folders.
 const FORMAT: u32 = 1;
 
-fn text(by: &Provenance) -> String {
+fn mark_text(by: &Provenance) -> String {
     format!(
         "# A run folder: {} replaces its own files here and leaves all others alone.\n\
          format = {FORMAT}\ntool = \"{}\"\nversion = \"{}\"\n",
@@ -19,30 +19,30 @@ fn text(by: &Provenance) -> String {
     )
 }
 
-/// Reads the mark; one that is empty or cut off, which a kill or a user may leave, is filled in.
-/// Errors: a file that is none of this tool's marks (exit 2); a failed write.
+/// Reads the mark and completes one that is empty or cut off, as a kill or a user may leave it.
+/// Errors: a file that is no mark of this tool (exit 2); a failed write.
 pub(crate) fn complete(marker: &mut File, by: &Provenance, place: &Path) -> Result<(), RunFailure> {
     let mut found = Vec::new();
     let read = (&*marker).take(1 << 12).read_to_end(&mut found);
     read.map_err(RunFailure::write(place))?;
-    if let Some(rest) = text(by).as_bytes().strip_prefix(found.as_slice()) {
+    if let Some(rest) = mark_text(by).as_bytes().strip_prefix(found.as_slice()) {
         if !rest.is_empty() {
             let write = marker.write_all(rest).and_then(|()| marker.sync_all());
             write.map_err(RunFailure::write(place))?;
         }
         return Ok(());
     }
-    // A mark of another version differs in the last line alone.
-    let mark = text(by);
+    // A mark of another version of the tool differs in the last line only.
+    let mark = mark_text(by);
     let own = mark.rsplit_once("version").map_or(&*mark, |(own, _)| own);
     match found.starts_with(own.as_bytes()) {
         true => Ok(()),
-        false => Err(unknown(place)),
+        false => Err(not_a_mark(place)),
     }
 }
 
-/// What stands at the mark's name is none.
-pub(crate) fn unknown(place: &Path) -> RunFailure {
+/// The refusal of a file that has the mark's name but is no mark.
+pub(crate) fn not_a_mark(place: &Path) -> RunFailure {
     RunFailure::Usage(format!(
         "'{}' is not the mark of a run folder that this version knows: name another folder",
         place.display()
@@ -67,7 +67,7 @@ mod tests {
             let mut file = File::options().read(true).write(true).open(&place).unwrap();
             complete(&mut file, &by(version), &place)
         };
-        let whole = text(&by("1"));
+        let whole = mark_text(&by("1"));
         for cut in [0, 10, whole.len() - 1, whole.len()] {
             opened(&whole[..cut], "1").unwrap();
             assert_eq!(fs::read_to_string(&place).unwrap(), whole);

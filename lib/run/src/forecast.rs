@@ -1,44 +1,44 @@
-//! Time and memory that a run will take, and the bounds beyond which it is not started unasked.
+//! Forecast of a run's time and memory, and the bounds beyond which a run needs `--yes-really`.
 
 use std::fmt::Display;
 
 use physics::Stages;
 
-/// What a scheme expects of a run.
+/// A scheme's forecast of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct Forecast {
     /// First time step, s.
     pub(crate) dt_s: f64,
-    /// Which limit sets it, in words.
+    /// Name of the limit that sets the time step.
     pub(crate) limit: String,
-    /// Steps to the nominal end: the clamp keeps its full speed.
+    /// Steps to the nominal end, at the clamp's full speed.
     pub(crate) steps: f64,
-    /// The same to the latest end, where a pressure limit holds the clamp back.
+    /// Steps to the latest end, if a pressure limit holds the clamp back.
     pub(crate) most_steps: f64,
     /// Largest resident memory, bytes.
     pub(crate) memory_bytes: f64,
-    /// Wall time of a step on the threads at hand, s.
+    /// Wall time of a step on the available threads, s.
     pub(crate) step_s: f64,
-    /// Further lines of the plan: unknowns, caps.
+    /// Further lines of the plan, such as unknowns and caps.
     pub(crate) notes: String,
-    /// What a step consists of.
+    /// The stages of a step.
     pub(crate) stages: Stages,
 }
 
-/// Steps from which a run will not end: at a microsecond each they take weeks.
-const ENDLESS: f64 = 1e9;
-/// Wall time that nobody waits for unasked, s: a week.
-const PATIENCE: f64 = 7.0 * 86_400.0;
+/// Most steps of a run that starts unasked: at a millisecond each they take twelve days.
+const MOST_STEPS: f64 = 1e9;
+/// Longest wall time of a run that starts unasked, s: a week.
+const MOST_WALL_S: f64 = 7.0 * 86_400.0;
 
 impl Forecast {
-    /// A sentence where the run will not end in time or not fit into memory.
+    /// A sentence if the run exceeds the bounds of steps, wall time or memory.
     pub(crate) fn excess(&self) -> Option<String> {
         let seconds = self.most_steps * self.step_s;
-        // A forecast that is not a number is beyond all bounds too.
+        // NaN counts as excess.
         let fits = |value: f64, most: f64| value <= most;
-        if !(fits(self.most_steps, ENDLESS) && fits(seconds, PATIENCE)) {
+        if !(fits(self.most_steps, MOST_STEPS) && fits(seconds, MOST_WALL_S)) {
             return Some(format!(
-                "the run would take up to {:.1e} steps of {:.2e} s, {}, where {ENDLESS:e} steps or a week are the most; the limit that binds is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
+                "the run would take up to {:.1e} steps of {:.2e} s, {}, more than {MOST_STEPS:e} steps or a week; the binding limit is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
                 self.most_steps,
                 self.dt_s,
                 cli::duration(seconds),
@@ -56,7 +56,7 @@ impl Forecast {
     }
 }
 
-/// A line of a plan.
+/// A line of the plan.
 pub(crate) fn line(name: &str, text: impl Display) -> String {
     format!("  {name:<18} {text}\n")
 }

@@ -1,4 +1,4 @@
-//! `history.csv`: one row per interval, each written at once.
+//! `history.csv`: one row per interval, each written by one call.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -7,31 +7,31 @@ use std::path::PathBuf;
 use physics::{Diagnostics, Scene};
 use xxhash_rust::xxh3::Xxh3Default;
 
-use crate::bond_measures::{self, Moment};
+use crate::bond_measures::{self, BondRow};
 use crate::clock::Clock;
 use crate::failure::RunFailure;
-use crate::files::is_still;
+use crate::files::check_not_replaced;
 use crate::folder::{HISTORY, RunFolder};
 use crate::resolve::Setup;
 
-/// The columns, contract first, then what the two schemes add.
-const HEADER: &str = "step,time_s,dt_s,closing_speed_m_s,displacement_m,gap_m,pressure_bottom_Pa,\
+/// Columns of every run.
+const COMMON_COLUMNS: &str = "step,time_s,dt_s,closing_speed_m_s,displacement_m,gap_m,pressure_bottom_Pa,\
 pressure_top_Pa,kinetic_energy_J,viscous_power_W,adhesive_volume_m3,max_speed_m_s,lost_particles,\
 solver_iterations,capped_viscosity_fraction";
-/// What follows of a liquid that cures: its factor of the viscosity at the row's time.
-const CURED: &str = ",viscosity_factor";
-/// What follows of a liquid that loses water: its mean solids content, and the water in the walls.
-const WET: &str = ",solids_content,water_in_walls_m3";
+/// Further column for a curing liquid: the factor of its viscosity.
+const CURE_COLUMN: &str = ",viscosity_factor";
+/// Further columns for a liquid that loses water: its mean solids content, and the water in the walls.
+const WATER_COLUMNS: &str = ",solids_content,water_in_walls_m3";
 
-/// What a press programme adds: the number of the stage that the step was of.
-const STAGE: &str = ",stage";
+/// Further column for a press programme: the number of the step's stage.
+const STAGE_COLUMN: &str = ",stage";
 
-/// How far a history went, and what it then held.
+/// Length and hash of a history.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Extent {
     /// Length, bytes.
     pub(crate) bytes: u64,
-    /// XXH3-64 of them.
+    /// XXH3-64 of these bytes.
     pub(crate) hash: u64,
 }
 
@@ -44,22 +44,22 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Starts the history of a run of `scene` in `folder`, with the columns of its bond where that is `watched`.
+    /// Starts the history of a run of `scene` in `folder`, with the columns of the bond if `bonded`.
     pub(crate) fn create(
         folder: &RunFolder,
         scene: &Scene,
-        watched: bool,
+        bonded: bool,
     ) -> Result<Self, RunFailure> {
         let more = [
-            (scene.liquid.cure.is_some(), CURED),
-            (scene.liquid.water.is_some(), WET),
-            (!scene.programme.is_empty(), STAGE),
-            (watched, bond_measures::COLUMNS),
+            (scene.liquid.cure.is_some(), CURE_COLUMN),
+            (scene.liquid.water.is_some(), WATER_COLUMNS),
+            (!scene.programme.is_empty(), STAGE_COLUMN),
+            (bonded, bond_measures::COLUMNS),
         ];
         let more = more.map(|(has, columns)| if has { columns } else { "" });
-        let header = format!("{HEADER}{}\n", more.concat());
+        let header = format!("{COMMON_COLUMNS}{}\n", more.concat());
         folder.write_text(HISTORY, &header)?;
-        let path = folder.place(HISTORY);
+        let path = folder.path_of(HISTORY);
         let open = File::options().append(true).open(&path);
         let mut hash = Xxh3Default::new();
         hash.update(header.as_bytes());
@@ -71,11 +71,10 @@ impl History {
         })
     }
 
-    /// Continues a history from where a checkpoint left it. What came after, whole rows or a
-    /// part of one, is cut off.
-    /// Errors: a history that no longer begins as the checkpoint left it (exit 3); a failed write.
+    /// Continues the history from a checkpoint and cuts off whatever was written after it.
+    /// Errors: the history does not begin as it was at the checkpoint (exit 3); a failed write.
     pub(crate) fn resume(folder: &RunFolder, extent: Extent) -> Result<Self, RunFailure> {
-        let path = folder.place(HISTORY);
+        let path = folder.path_of(HISTORY);
         let unusable = |why: &str| {
             RunFailure::Data(format!(
                 "'{}' {why}, so the run cannot be continued; use --overwrite to start anew",
@@ -101,12 +100,12 @@ impl History {
         })
     }
 
-    /// Brings all rows to the disk and says how far they go.
-    /// Errors: the file and the system's reason; also where the rows went into a file that is no longer there.
+    /// Syncs all rows to the disk.
+    /// Errors: the file and the system's reason; also if the file was removed or replaced meanwhile.
     pub(crate) fn sync(&self) -> Result<Extent, RunFailure> {
         let sync = || {
             self.file.sync_data()?;
-            is_still(&self.file, &self.path)
+            check_not_replaced(&self.file, &self.path)
         };
         sync().map_err(RunFailure::write(&self.path))?;
         Ok(Extent {
@@ -115,17 +114,16 @@ impl History {
         })
     }
 
-    /// Appends a row of the run of `setup`, of a stage of its press programme (from 1), and what the press has come to. The gap
-    /// of a run without a clamp stays empty.
+    /// Appends a row; `stage` of a press programme counts from 1. The gap of a run without a clamp stays empty.
     pub(crate) fn row(
         &mut self,
         setup: &Setup,
         clock: &Clock,
         diagnostics: &Diagnostics,
         stage: Option<usize>,
-        moment: Option<Moment>,
+        bond: Option<BondRow>,
     ) -> Result<(), RunFailure> {
-        let last = &clock.last;
+        let last = &clock.last_step;
         let gap = setup.initial_gap_m.map(|gap| gap - clock.travel_m);
         let gap = gap.map_or(String::new(), |gap| format!("{gap:.9e}"));
         let mut row = format!(
@@ -149,10 +147,10 @@ impl History {
         row.extend(cure.map(|cure| format!(",{:.9e}", cure.factor(clock.time_s))));
         row.extend((diagnostics.water).map(|w| format!(",{:.9e},{:.9e}", w.solids, w.in_walls_m3)));
         row.extend(stage.map(|stage| format!(",{stage}")));
-        row.extend(moment.map(|moment| moment.fields()));
+        row.extend(bond.map(|bond| bond.fields()));
         row.push('\n');
         self.file.write_all(row.as_bytes()).map_err(|error| {
-            // Part of a row on a full disk is of no use; if it stays, --resume cuts it off.
+            // Remove the partial row of a full disk; if that fails, --resume cuts it off.
             let _ = self.file.set_len(self.bytes);
             RunFailure::write(&self.path)(error)
         })?;
@@ -162,20 +160,20 @@ impl History {
     }
 }
 
-/// Total WP (m) at `time_s`, where a history of this text has a row then that tells it.
+/// Total WP (m) at `time_s` from the text of a history; `None` without such a row or column.
 pub(crate) fn wp_at(text: &str, time_s: f64) -> Option<f64> {
     let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let columns = rows.next()?;
     let place = |name| columns.iter().position(|column| *column == name);
     let [time, wp] = [place("time_s")?, place("wp_total_um")?];
     let number = |row: &[&str], at: usize| row.get(at)?.parse::<f64>().ok();
-    // A row has ten digits of its time.
+    // Times in rows have ten digits.
     let mut then =
         rows.filter(|row| number(row, time).is_some_and(|t| (t - time_s).abs() <= 1e-9 * time_s));
     Some(1e-6 * number(&then.next()?, wp)?)
 }
 
-/// Hashes the first `bytes` of a file, or all of it if it is shorter; how many there were.
+/// Hashes the first `bytes` of a file, or all of it if it is shorter. Returns the number of bytes and the hash.
 fn hash_start(file: &mut File, bytes: u64) -> io::Result<(u64, Xxh3Default)> {
     let mut hash = Xxh3Default::new();
     let mut start = BufReader::with_capacity(1 << 16, file.take(bytes));
@@ -188,7 +186,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::folder::tests::held;
+    use crate::folder::tests::test_folder;
     use crate::verdict::tests::setup;
 
     fn create(folder: &RunFolder) -> History {
@@ -206,11 +204,11 @@ mod tests {
         }
     }
 
-    /// The last row, cut off in the middle, was kept as a row of an earlier step before.
+    /// A last row cut off in its first field could be taken for the row of an earlier step.
     #[test]
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
-        let (_place, folder) = held();
-        let path = folder.place(HISTORY);
+        let (_place, folder) = test_folder();
+        let path = folder.path_of(HISTORY);
         let mut history = create(&folder);
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
@@ -230,25 +228,24 @@ mod tests {
         assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
     }
 
-    /// Bytes that are no text were said to be a failed write before.
     #[test]
     fn a_history_that_was_changed_is_not_continued() {
-        let (_place, folder) = held();
+        let (_place, folder) = test_folder();
         let mut history = create(&folder);
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
-        let whole = fs::read(folder.place(HISTORY)).unwrap();
+        let whole = fs::read(folder.path_of(HISTORY)).unwrap();
         let mut garbled = whole.clone();
         garbled[200] = 0xff;
         for bytes in [&garbled[..], &whole[..whole.len() - 1], b""] {
-            fs::write(folder.place(HISTORY), bytes).unwrap();
+            fs::write(folder.path_of(HISTORY), bytes).unwrap();
             let said = History::resume(&folder, extent).err().unwrap().to_string();
             assert!(said.contains("not what it was"), "{said}");
         }
-        fs::remove_file(folder.place(HISTORY)).unwrap();
+        fs::remove_file(folder.path_of(HISTORY)).unwrap();
         let said = History::resume(&folder, extent).err().unwrap().to_string();
         assert!(said.contains("is missing"), "{said}");
-        // 314e630 went on and ended well, without a history.
+        // A run must not end well without its history.
         let said = history.sync().unwrap_err().to_string();
         assert!(said.contains("it was removed"), "{said}");
     }

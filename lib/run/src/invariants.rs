@@ -1,48 +1,46 @@
-//! Checks of a state that no scheme may take for granted: liquid in wood, liquid where it
-//! cannot have flowed, liquid volume.
+//! Checks of the final state that hold for any scheme: liquid in wood, liquid in sealed voids, liquid volume.
 
 use bondline::open_voids;
 use particle_file::{BitGrid, BitsRef};
 use physics::{LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterState};
 use units::Axis;
 
-use crate::crowded_liquid::crowded;
-use crate::depth::MovedBodies;
+use crate::crowded_liquid::crowded_fraction;
+use crate::moved_bodies::MovedBodies;
 
-/// What was found in a state; counts of material points.
+/// Results of the checks; counts are of material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Invariants {
     /// Points inside a rigid body.
     pub points_in_wood: u64,
-    /// Points deeper than one spacing inside a rigid body: beyond the discretisation.
+    /// Points deeper inside a rigid body than half a cell, the resolution of walls.
     pub points_deep_in_wood: u64,
-    /// Deepest of them below the nearest place inside the domain that no body fills, m.
+    /// Depth of the deepest point in a rigid body: distance to the nearest place in the domain outside all bodies, m.
     pub deepest_m: f64,
-    /// Points in voids that no open path connects to the bond plane.
+    /// Points in voids without an open path to the bond surface.
     pub points_in_unreachable_voids: u64,
-    /// Current over initial volume of the liquid, minus one; with the water that the liquid has given off.
+    /// Current over initial volume of the liquid, minus one. Water given off to the walls counts as present.
     pub volume_change: f64,
-    /// Part of the liquid's volume that lies where there is no room for it: beyond one and a half times that of blocks
-    /// of two cells.
+    /// Fraction of the liquid's volume in excess of one and a half times the volume of blocks of two cells.
     pub crowded: f64,
-    /// Of a liquid that loses water: where that is.
+    /// Water balance of a liquid that loses water.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub water: Option<WaterAccount>,
 }
 
-/// Where the water is of a liquid that loses it.
+/// Water balance of a liquid that loses water to the walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct WaterAccount {
     /// Water in the walls, kg.
     pub water_in_walls_kg: f64,
-    /// Water that is neither in the points nor in the walls, nor left with points, over all of it.
+    /// Fraction of the water that the balance misses: not in points or walls, and not gone with points that left.
     pub water_missing: f64,
     /// Mean solids content of the liquid, by mass.
     pub solids_content: f64,
 }
 
 impl Invariants {
-    /// These with what is known of the water of a liquid of `initial_volume` (m3) at the start.
+    /// Adds the water balance of a liquid of `initial_volume` (m3) at the start.
     pub(crate) fn with_water(self, water: Option<WaterState>, initial_volume: f64) -> Self {
         let Some(state) = water else {
             return self;
@@ -59,8 +57,7 @@ impl Invariants {
     }
 }
 
-/// Checks `liquid`, whose volume was `initial_volume` (m3) at the start, with the bodies
-/// displaced by `displacements` (m).
+/// Checks `liquid`, of `initial_volume` (m3) at the start, with bodies displaced by `displacements` (m).
 pub(crate) fn check(
     scene: &Scene,
     initial_volume: f64,
@@ -69,7 +66,7 @@ pub(crate) fn check(
 ) -> Invariants {
     let spacing = 0.5 * scene.grid.cell_m;
     let bodies = scene.bodies.iter();
-    let reachable: Vec<_> = bodies.map(|b| Reachable::of(b, scene)).collect();
+    let reachable: Vec<_> = bodies.map(|b| OpenVoids::of(b, scene)).collect();
     let placed = MovedBodies {
         scene,
         displacements,
@@ -84,9 +81,9 @@ pub(crate) fn check(
             found.deepest_m = found.deepest_m.max(depth);
             continue;
         }
-        let sealed = |(shift, reachable): (&[f64; 3], &Option<Reachable>)| {
+        let sealed = |(shift, reachable): (&[f64; 3], &Option<OpenVoids>)| {
             let own: [f64; 3] = std::array::from_fn(|a| at[a] - shift[a]);
-            reachable.as_ref().is_some_and(|r| r.is_closed_void(own))
+            reachable.as_ref().is_some_and(|r| r.is_sealed_at(own))
         };
         let voids = displacements
             .iter()
@@ -96,18 +93,18 @@ pub(crate) fn check(
     }
     let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
     found.volume_change = volume / initial_volume - 1.0;
-    found.crowded = crowded(scene, liquid);
+    found.crowded = crowded_fraction(scene, liquid);
     found
 }
 
-/// The voids of one adherend that open paths connect to its bond surface.
-struct Reachable<'a> {
+/// The open voids of an adherend, which are connected to its bond surface.
+struct OpenVoids<'a> {
     block: &'a VoxelBlock,
     open: BitGrid,
 }
 
-impl<'a> Reachable<'a> {
-    /// `None` for bodies that are not one voxel block next to the bond plane.
+impl<'a> OpenVoids<'a> {
+    /// `None` for bodies of several blocks.
     fn of(body: &'a RigidBody, scene: &Scene) -> Option<Self> {
         let [block] = body.blocks.as_slice() else {
             return None;
@@ -120,8 +117,8 @@ impl<'a> Reachable<'a> {
         Some(Self { block, open })
     }
 
-    /// Whether `point` (in the body's frame) is in an open voxel of the block that was not reached.
-    fn is_closed_void(&self, point: [f64; 3]) -> bool {
+    /// Whether `point` (in the body's frame) lies in a sealed void of the block.
+    fn is_sealed_at(&self, point: [f64; 3]) -> bool {
         let closed = |[x, y, z]: [usize; 3]| !self.block.solid(x, y, z) && !self.open.get(x, y, z);
         self.block.voxel_at(point).is_some_and(closed)
     }
@@ -173,7 +170,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// No way out is looked for beyond four cells.
+    /// Depths are capped at four cells.
     #[test]
     fn a_point_in_a_domain_full_of_wood_is_four_cells_deep() {
         let mut scene = scene(vec![VoxelBlock::solid_box([-9.0; 3], [99.0; 3])]);
@@ -198,28 +195,28 @@ pub(crate) mod tests {
             VoxelBlock::from_fn(low, voxel, dims, wood)
         };
         let mut scene = scene(vec![block(false)]);
-        // Voxels of which the middle is in a closed void.
+        // Voxels whose centre lies in a closed void.
         let closed = |scene: &Scene| {
-            let reachable = Reachable::of(&scene.bodies[0], scene).unwrap();
+            let reachable = OpenVoids::of(&scene.bodies[0], scene).unwrap();
             let all = (0..60).map(|n| [n % 5, n / 5 % 4, n / 20]);
             let middle = |at: [usize; 3]| from_fn(|a| low[a] + (at[a] as f64 + 0.5) * voxel[a]);
-            let closed = all.filter(|&at| reachable.is_closed_void(middle(at)));
+            let closed = all.filter(|&at| reachable.is_sealed_at(middle(at)));
             closed.collect::<Vec<_>>()
         };
         assert_eq!(closed(&scene), [[0, 2, 2]]);
-        // Seen from below, as an upper adherend is, the path comes down to j = 0.
+        // For an upper adherend the bond surface is below: the path comes down to j = 0.
         scene.top = Some(0);
         assert_eq!(closed(&scene), [[0, 2, 2]]);
         scene.bodies[0].blocks[0] = block(true);
-        // All of the path but what was at j = 0, and the other.
+        // The path except its voxels at j = 0, and the closed void.
         assert_eq!(closed(&scene).len(), 10);
     }
 
-    /// The same block moved: what holds at rest holds with it.
+    /// Bodies are checked at their displaced place.
     #[test]
     fn a_displaced_body_is_looked_at_where_it_is() {
         let shift = [0.5, -3.0, 2.0];
-        // Wood but for a void at the bond, i = 1, and a closed one, i = 3.
+        // Wood with a void at the bond, i = 1, and a closed one, i = 3.
         let block =
             VoxelBlock::from_fn([10.0, 20.0, 30.0], [2.0, 4.0, 8.0], [5, 4, 3], |i, j, k| {
                 !(i == 1 && j == 3 && k == 1 || i == 3 && j == 1 && k == 1)

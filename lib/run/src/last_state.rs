@@ -1,42 +1,43 @@
-//! The end of a run: its last state judged and measured.
+//! The last state of a run, judged and measured for its summary.
 
 use physics::{Cure, LiquidState, Scheme, StageTime};
 use serde_json::json;
 
-use crate::bond_measures::Watch;
+use crate::bond_measures::BondMeter;
 use crate::failure::RunFailure;
 use crate::invariants;
 use crate::resolve::Setup;
 use crate::snapshot::in_file_axes;
-use crate::summary::{self, Account, Summary};
+use crate::summary::{self, Preliminaries, Summary};
 use crate::time_loop::Outcome;
 use crate::verdict;
 
-/// The summary of a run with a history of this text, its liquid in the axes of the bond file, and the displacements of
-/// its bodies (m). The scheme, most of a run's memory, is gone before the liquid is measured.
-pub(crate) fn conclude(
+/// Returns the summary, the liquid in the axes of the bond file, and the displacements of the bodies (m). `history` is the
+/// text of the history, for press programmes. The scheme, which takes most of the memory, is dropped before the liquid is
+/// measured.
+pub(crate) fn summarise(
     setup: &Setup,
     scheme: Box<dyn Scheme>,
     outcome: Outcome,
-    watch: Option<&Watch>,
-    account: Account,
+    meter: Option<&BondMeter>,
+    preliminaries: Preliminaries,
     history: &str,
 ) -> Result<(Summary, LiquidState, Vec<[f64; 3]>), RunFailure> {
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
-    let programme = summary::programme(scheme.programme(), history);
+    let programme = summary::ended_stages(scheme.programme(), history);
     let stage = |time: &StageTime| json!({ "name": time.name, "wall_s": time.wall_s });
     let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
     let (begun_m3, diagnostics) = (setup.liquid.volume_m3, outcome.diagnostics);
     let (clock, water) = (outcome.clock, diagnostics.water);
-    let lost = clock.last.lost;
+    let lost = clock.last_step.lost;
     let invariants = invariants::check(&setup.scene, begun_m3, &liquid, &displacements)
         .with_water(water, begun_m3);
     let verdict = verdict::judge(setup, &liquid, &invariants, water, lost, follows).and(objection);
     in_file_axes(&mut liquid, setup.normal);
-    let penetration = watch
-        .map(|watch| watch.look_closely(&liquid, &displacements, lost))
+    let penetration = meter
+        .map(|meter| meter.measure_state(&liquid, &displacements, lost))
         .transpose()?;
     let wall = outcome.stepping.as_secs_f64();
     let work = outcome.steps_here as f64 * setup.liquid.points as f64;
@@ -48,7 +49,7 @@ pub(crate) fn conclude(
         time_s: clock.time_s,
         travel_m: clock.travel_m,
         gap_m: setup.initial_gap_m.map(|g| g - clock.travel_m),
-        final_pressure_pa: clock.last.pressure_top,
+        final_pressure_pa: clock.last_step.pressure_top,
         liquid_points: setup.liquid.points,
         points_left: lost,
         kinetic_energy_j: diagnostics.kinetic_energy,
@@ -64,7 +65,7 @@ pub(crate) fn conclude(
         stages: stages.iter().map(stage).collect(),
         counts: counts.into_iter().collect(),
         invariants,
-        account,
+        preliminaries,
     };
     Ok((summary, liquid, displacements))
 }

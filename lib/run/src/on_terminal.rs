@@ -1,4 +1,4 @@
-//! A run as tools start it: told on the terminal, stopped by signals, its failures as exit statuses.
+//! Runs started by a command-line tool: progress on the terminal, stop by signals, failures as exit statuses.
 
 use std::path::Path;
 
@@ -8,7 +8,8 @@ use particle_file::Provenance;
 use crate::{Mode, Request, RunFailure, Summary};
 
 impl Request {
-    /// As [`Request::execute`], as `mpm-run` of this version, which can then continue it.
+    /// As [`Request::execute`], with progress on the terminal. The run is recorded as one of `mpm-run` at `version`, which can
+    /// then continue it.
     ///
     /// # Errors
     /// As [`Request::execute`].

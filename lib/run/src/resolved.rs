@@ -1,28 +1,28 @@
-//! `resolved.toml`: the case as run, every key that was left out with the value that held instead.
-//! As a case file it makes the same run again.
+//! `resolved.toml`: the case of a run with the defaults of all keys that were not given. Used as a case file it repeats the
+//! run.
 
 use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
 use physics::{Choice, Pid};
 use units::{Dimension, Length, Time};
 
-use crate::case::{Case, SchemeName, StopRule, Table, tables};
-use crate::changes::value_at;
+use crate::case::{Case, ReferenceTable, SchemeName, StopRule, tables};
+use crate::changed_keys::value_at;
 use crate::resolve::Setup;
 use crate::schemes;
 
 const OPENING: &str = "\
-# The case of this run, with the defaults that held: as a case file it makes the same run again.
-# What the keys are: mpm-run --reference
+# The case of this run with all defaults; used as a case file, it repeats the run.
+# mpm-run --reference explains the keys.
 ";
 
-/// What stands behind a value that was not given.
+/// Comment after a default value.
 const DEFAULT: &str = " # default";
-/// Tables that a case need not name for their defaults to hold.
+/// Tables whose defaults hold even if the case does not name them.
 const IMPLIED: [&str; 3] = ["output", "gravity", "boundary"];
-/// Differing keys that are named.
-const TOLD: usize = 3;
+/// Most differing keys that a message names.
+const MOST_NAMED: usize = 3;
 
-/// The text of the file, for a case of this `text`.
+/// The content of `resolved.toml` for the case parsed from `text`.
 pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
     let given = toml::Value::Table(text.parse().unwrap_or_default());
     let none = toml::Value::Table(toml::Table::new());
@@ -44,7 +44,7 @@ pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
     out
 }
 
-fn table_text(table: &Table, place: &toml::Value, case: &Case, setup: &Setup) -> String {
+fn table_text(table: &ReferenceTable, place: &toml::Value, case: &Case, setup: &Setup) -> String {
     let mut out = format!("\n{}\n", table.heading);
     for key in &table.keys {
         let name = key.name();
@@ -67,7 +67,7 @@ fn table_text(table: &Table, place: &toml::Value, case: &Case, setup: &Setup) ->
     out
 }
 
-/// The default of a key that follows from case and scene, as TOML, none where it is not used; nothing for other keys.
+/// A default that follows from case and scene, as TOML: `Some(None)` if the key is not used, `None` for all other keys.
 fn derived(key: &str, case: &Case, setup: &Setup) -> Option<Option<String>> {
     let explicit = case.integrator.scheme == SchemeName::Explicit;
     let grid = || (!case.body.is_empty()).then_some(&setup.scene.grid);
@@ -103,7 +103,7 @@ fn derived(key: &str, case: &Case, setup: &Setup) -> Option<Option<String>> {
     })
 }
 
-/// A value in SI as TOML that reads back to the same number.
+/// A value in SI as TOML; it reads back to the same number.
 fn si<D: Dimension>(value: f64) -> String {
     format!("\"{value:?} {}\"", D::UNITS[0].0)
 }
@@ -112,9 +112,9 @@ fn corner(metres: [f64; 3]) -> String {
     format!("[{}]", metres.map(si::<Length>).join(", "))
 }
 
-/// The first keys by which the case of one such text differs from that of another, with both values: so that a run that is not
-/// continued can say why. Defaults do not count, of which some follow from the bond, and of the rest only a `part`; a list of
-/// tables counts as one key. None where a text is no case.
+/// The first keys in which two `resolved.toml` differ, with both values, for the message on a run that is not continued.
+/// Defaults are ignored, as some follow from the bond. `part` selects the part of the text to compare. A list of tables
+/// counts as one key. Empty if a text is no TOML.
 pub(crate) fn differences(texts: [&str; 2], part: fn(&str) -> String) -> Vec<String> {
     let given = |text: &str| -> Option<toml::Value> {
         let lines = text.lines().filter(|line| !line.ends_with(DEFAULT));
@@ -136,6 +136,6 @@ pub(crate) fn differences(texts: [&str; 2], part: fn(&str) -> String) -> Vec<Str
             let [is, was] = [value_at(&is, &path), value_at(&was, &path)];
             (is != was).then(|| format!("{path} is {}, was {}", value(is), value(was)))
         })
-        .take(TOLD)
+        .take(MOST_NAMED)
         .collect()
 }

@@ -1,4 +1,4 @@
-//! The scheme a case asks for, with its settings and its forecast.
+//! The scheme of a case, its settings and its forecast.
 
 use implicit::Implicit;
 use mpm::{Explicit, PressureFrom, VelocityUpdate};
@@ -9,12 +9,12 @@ use crate::failure::{RunFailure, refused};
 use crate::forecast::{Forecast, line};
 use crate::resolve::Setup;
 
-/// The Courant number of a case, or its scheme's own.
+/// The Courant number of a case, or the default of its scheme.
 pub(crate) fn cfl(case: &Case) -> f64 {
     case.integrator.cfl.unwrap_or_else(|| default_cfl(case))
 }
 
-/// The Courant number of a case that names none.
+/// The default Courant number of a case's scheme.
 pub(crate) fn default_cfl(case: &Case) -> f64 {
     match case.integrator.scheme {
         SchemeName::Explicit => mpm::Settings::default().cfl,
@@ -22,8 +22,8 @@ pub(crate) fn default_cfl(case: &Case) -> f64 {
     }
 }
 
-/// The scheme at the start of its scene.
-/// Errors: settings that are not of this scheme, and scenes it cannot do.
+/// The scheme in its initial state.
+/// Errors: settings of the other scheme, and scenes that this scheme cannot compute.
 pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFailure> {
     let scene = &setup.scene;
     Ok(match case.integrator.scheme {
@@ -46,7 +46,7 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
     })
 }
 
-/// What a run is expected to take.
+/// The forecast of steps, time and memory.
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case, setup.scene.grid.cell_m)?, setup),
@@ -57,7 +57,7 @@ pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailur
     }
 }
 
-/// Refuses a key of the other scheme: the first of `keys` that is given, with why it is that of `scheme` only.
+/// Refuses keys that only `scheme` has: names the first of `keys` that is given, and the reason.
 fn refuse_stray(scheme: &str, keys: &[(bool, &str, &str)]) -> Result<(), RunFailure> {
     match keys.iter().find(|(given, ..)| *given) {
         None => Ok(()),
@@ -141,13 +141,13 @@ fn implicit(case: &Case) -> Result<implicit::Settings, RunFailure> {
 /// Liquid particle-steps per second and thread of FLIP in a scene with walls, as measured
 /// (docs/results/full-size.md).
 const EXPLICIT_SPEED: f64 = 11e6;
-/// What each further order of a velocity filter costs, in FLIP steps, by the same measurement.
+/// Cost of each further order of a velocity filter, in FLIP steps, by the same measurement.
 const FILTER_ORDER: f64 = 0.32;
-/// What an APIC step costs, in FLIP steps, by the same measurement.
+/// Cost of an APIC step, in FLIP steps, by the same measurement.
 const APIC_STEP: f64 = 1.3;
 
-/// Latest over nominal end of a run whose clamp a pressure limit may hold.
-fn latest(setup: &Setup) -> f64 {
+/// Latest over nominal end of a run: above 1 if a pressure limit may hold the clamp.
+fn latest_over_nominal(setup: &Setup) -> f64 {
     match setup.scene.clamp {
         Some(clamp) if clamp.max_pressure.is_some() => {
             (setup.time_limit_s / setup.nominal_duration_s).max(1.0)
@@ -156,7 +156,7 @@ fn latest(setup: &Setup) -> f64 {
     }
 }
 
-/// Bytes of a point as it is handed to the implicit scheme: position, velocity and volume.
+/// Bytes of an initial material point of the implicit scheme: position, velocity and volume.
 const POINT_BYTES: f64 = 56.0;
 
 fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast, RunFailure> {
@@ -169,14 +169,14 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
     let mut notes = line(
         "limits",
         format!(
-            "acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
+            "acoustic {:.3e} s, viscous {:.3e} s; the step is {} (Courant number) of the smaller",
             plan.acoustic_s, plan.viscous_s, settings.cfl
         ),
     );
     let (cap, largest) = (plan.viscosity_cap, setup.scene.liquid.viscosity.largest());
     if largest > cap {
         let said = format!(
-            "{cap:.3} Pa s: this step carries no more, and the table goes to {largest} Pa s"
+            "{cap:.3} Pa s, the largest that is stable at this step; the law goes to {largest} Pa s"
         );
         notes += &line("viscosity cap", said);
     }
@@ -185,8 +185,8 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
         dt_s: plan.dt_s,
         limit: plan.limit.to_string(),
         steps: plan.steps,
-        // Its step does not grow while the clamp is held.
-        most_steps: plan.steps * latest(setup),
+        // The explicit step does not grow while the clamp is held.
+        most_steps: plan.steps * latest_over_nominal(setup),
         memory_bytes: plan.memory_bytes,
         step_s: points * cost / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
         notes,
@@ -194,7 +194,7 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
     })
 }
 
-/// What the settings change of the paper's method, none of it silently.
+/// Lines on the settings that depart from the paper's method.
 fn departures(settings: &mpm::Settings) -> String {
     let mut out = String::new();
     if settings.pressure == PressureFrom::CellMean {
@@ -229,16 +229,16 @@ fn implicit_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
         let said =
             format!("closed off at {kilopascals} kPa (absolute){leak}: a pressure for each pocket");
         notes += &line("trapped air", said);
-        // Hot presses and presses at 1 m/s there.
+        // Measured for hot presses and presses at 1 m/s.
         let longer =
-            "a step takes two to six times as long as the run time says (docs/results/press.md)";
+            "a step takes two to six times the run time stated here (docs/results/press.md)";
         notes += &line("", longer);
     }
     Forecast {
         dt_s: plan.dt_s,
         limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),
         steps: plan.steps,
-        // Its step grows as the clamp slows down: what counts is the way.
+        // The step grows as the clamp slows down: the number of steps follows from the travel.
         most_steps: plan.steps,
         memory_bytes: plan.memory_bytes + POINT_BYTES * setup.liquid.points as f64,
         step_s: plan.cpu_s / plan.steps / rayon::current_num_threads() as f64,

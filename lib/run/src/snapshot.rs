@@ -12,15 +12,15 @@ use crate::folder::{FINAL, RunFolder, snapshot_name};
 use crate::resolve::{Setup, swap};
 
 const IDENTITY: &str = "identity";
-/// Pressure on the upper body, which a clamp drives, in the step before, Pa.
+/// Attribute: pressure on the upper body in the last step, Pa.
 const PRESSURE: &str = "pressure_pa";
-/// Way of the clamp left until the bond is closed, m; that of the bond file in its header.
+/// Attribute: travel left until the clamp has closed the bond, m; in a bond file the whole travel.
 const GAP: &str = "gap_m";
-/// Attribute of a state: the share of the liquid that left through open sides.
-const LEFT: &str = "left_through_open_sides";
+/// Attribute: fraction of the liquid that left through open sides.
+const LEFT_FRACTION: &str = "left_through_open_sides";
 
-/// Whether `folder` holds the final state of the run with this identity, whole. One that is damaged
-/// is none where it is `replaceable`.
+/// Whether `folder` holds the undamaged final state of the run with this identity. A damaged one is an error unless
+/// `replaceable`.
 pub(crate) fn is_final_of(
     folder: &Path,
     identity: &str,
@@ -41,21 +41,20 @@ pub(crate) fn is_final_of(
     }
 }
 
-/// Writes states of one run.
+/// Writes the state files of a run.
 pub(crate) struct SnapshotWriter<'a> {
     folder: &'a RunFolder,
     header: Header,
-    /// The bond file, whose wood blocks every state repeats at their current place.
+    /// The bond file; every state repeats its wood blocks at their current place.
     bond: Option<&'a ParticleFile>,
     normal: Axis,
     initial_gap_m: Option<f64>,
-    /// Points of the liquid at first.
+    /// Material points of the liquid at the start.
     points: u64,
 }
 
 impl<'a> SnapshotWriter<'a> {
-    /// A writer into `folder`; wood comes from `bond` where there is one. `identity` says
-    /// which run a state is of.
+    /// A writer into `folder`; the wood comes from `bond`, if given. `identity` identifies the run.
     pub(crate) fn new(
         folder: &'a RunFolder,
         setup: &Setup,
@@ -91,7 +90,7 @@ impl<'a> SnapshotWriter<'a> {
         }
     }
 
-    /// Writes `snapshots/NNNN.mpts` and counts it on the clock.
+    /// Writes `snapshots/NNNN.mpts` and counts it in `clock`.
     pub(crate) fn write_numbered(
         &self,
         clock: &mut Clock,
@@ -106,7 +105,7 @@ impl<'a> SnapshotWriter<'a> {
         Ok(())
     }
 
-    /// Writes `name` of `liquid`, in the axes of the file, and bodies so displaced (m).
+    /// Writes the state file `name`. `state` is in the axes of the file; `displacements` (m) are those of the bodies.
     pub(crate) fn write(
         &self,
         name: &str,
@@ -116,14 +115,17 @@ impl<'a> SnapshotWriter<'a> {
     ) -> Result<(), RunFailure> {
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
-        header.set_attribute(PRESSURE, clock.last.pressure_top);
-        header.set_attribute(LEFT, clock.last.lost as f64 / self.points as f64);
+        header.set_attribute(PRESSURE, clock.last_step.pressure_top);
+        header.set_attribute(
+            LEFT_FRACTION,
+            clock.last_step.lost as f64 / self.points as f64,
+        );
         if let Some(gap_m) = self.initial_gap_m {
             header.set_attribute(GAP, gap_m - clock.travel_m);
         }
         let mut draft = Draft::new(header);
         if let Some(bond) = self.bond {
-            for (block, bits) in wood_now(bond, displacements, self.normal)? {
+            for (block, bits) in displaced_wood(bond, displacements, self.normal)? {
                 draft = draft.block(block, bits);
             }
         }
@@ -141,7 +143,7 @@ impl<'a> SnapshotWriter<'a> {
     }
 }
 
-/// Turns a state of the scene to the axes of a file with the bond normal `normal`.
+/// Turns a state from the axes of the scene to those of a file with bond normal `normal`.
 pub(crate) fn in_file_axes(state: &mut LiquidState, normal: Axis) {
     if normal != Axis::Y {
         for v in state.position.iter_mut().chain(&mut state.velocity) {
@@ -150,8 +152,8 @@ pub(crate) fn in_file_axes(state: &mut LiquidState, normal: Axis) {
     }
 }
 
-/// Bottom and top adherend of `bond`, bodies 0 and 1 of its scene, at their current place.
-pub(crate) fn wood_now<'a>(
+/// Bottom and top adherend of `bond` (bodies 0 and 1 of the scene) at their current place.
+pub(crate) fn displaced_wood<'a>(
     bond: &'a ParticleFile,
     displacements: &[[f64; 3]],
     normal: Axis,

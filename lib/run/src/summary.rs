@@ -1,4 +1,4 @@
-//! `summary.json`: what a run was, did and cost.
+//! `summary.json`: end, verdict, measures and cost of a run.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,13 @@ use particle_file::Provenance;
 use physics::{Choice, PressRun};
 use serde::Serialize;
 
-use crate::bond_measures::Answers;
+use crate::bond_measures::BondMeasures;
 use crate::courant::Courant;
-use crate::ends::End;
+use crate::end_conditions::End;
 use crate::expected_error::ExpectedError;
 use crate::history;
 use crate::invariants::Invariants;
-use crate::left_out::{BEYOND_SIDES, Remark, UNCERTAIN};
+use crate::omissions::{BEYOND_SIDES, Remark, UNCERTAIN};
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
@@ -22,21 +22,21 @@ pub struct Summary {
     pub end: End,
     /// Whether the last state is sound.
     pub verdict: Verdict,
-    /// Steps since the start.
+    /// Steps since the start of the run.
     pub steps: u64,
-    /// Which of them were taken at which Courant number.
+    /// Courant numbers and the steps from which they held.
     pub courant_numbers: Vec<Courant>,
     /// Simulated time, s.
     pub time_s: f64,
     /// Clamp travel, m.
     pub travel_m: f64,
-    /// Gap left, m.
+    /// Travel left until closure, m.
     pub gap_m: Option<f64>,
-    /// Pressure on the upper body, which a clamp drives and controls, in the last step, Pa.
+    /// Pressure on the upper body, which the clamp drives, in the last step, Pa.
     pub final_pressure_pa: f64,
     /// Liquid material points.
     pub liquid_points: u64,
-    /// Of them, those that left the domain.
+    /// Material points that left the domain.
     pub points_left: u64,
     /// Kinetic energy of the liquid at the end, J.
     pub kinetic_energy_j: f64,
@@ -55,71 +55,71 @@ pub struct Summary {
     /// How the stages of a press programme ended.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub programme: Vec<PressedStage>,
-    /// What the press has come to, of a bond in three dimensions.
+    /// Penetration and bond line, for a bond in three dimensions.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub penetration: Option<Answers>,
-    /// When the adhesive sets, s: the run ends there. Of a liquid that does.
+    pub penetration: Option<BondMeasures>,
+    /// Time at which the adhesive sets and the run ends, s; absent if it never sets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub set_s: Option<f64>,
     /// Wall time per stage of a step, s.
     pub stages: Vec<serde_json::Value>,
-    /// How often the scheme had to step in.
+    /// Interventions of the scheme, counted by kind.
     pub counts: BTreeMap<&'static str, u64>,
     /// Checks of the final state.
     pub invariants: Invariants,
-    /// What is known before it starts.
+    /// What is known before the run.
     #[serde(flatten)]
-    pub account: Account,
+    pub preliminaries: Preliminaries,
 }
 
-/// What is known of a run before it starts.
+/// The part of the summary that is known before the run.
 #[derive(Debug, Serialize)]
-pub struct Account {
-    /// What was measured of the error of its scheme and options.
+pub struct Preliminaries {
+    /// Expected error, as measured for the scheme and options.
     pub expected_error: ExpectedError,
-    /// How wide the lumens at the bond are, and what to do where they have few cells.
+    /// Lumen width at the bond, and a proposed cell size if few cells span a lumen.
     pub lumens: Vec<Remark>,
     /// What the run does not compute, and why.
     pub left_out: Vec<Remark>,
-    /// What made this run folder.
+    /// Tool, version, command and inputs.
     pub provenance: serde_json::Value,
 }
 
-/// `summary.json` of a run that failed: what its folder has to say of it.
+/// `summary.json` of a run that failed.
 #[derive(Debug, Serialize)]
-pub(crate) struct Failed {
+pub(crate) struct FailedSummary {
     pub(crate) end: &'static str,
-    /// Not sound, with the sentence that the run ended with.
+    /// Not sound, with the message of the failure as its reason.
     pub(crate) verdict: Verdict,
-    /// Steps that were good, and the time they came to, s.
+    /// Steps before the failure, and their time, s.
     pub(crate) steps: u64,
     pub(crate) time_s: f64,
     #[serde(flatten)]
-    pub(crate) account: Account,
+    pub(crate) preliminaries: Preliminaries,
 }
 
 /// How a stage of a press programme ended.
 #[derive(Debug, Serialize)]
 pub struct PressedStage {
-    /// What it did.
+    /// Kind of the stage.
     pub kind: &'static str,
-    /// What ended it.
+    /// Reason of its end.
     pub ended_by: &'static str,
-    /// When, s since the start of the run.
+    /// Time of its end since the start of the run, s.
     pub end_s: f64,
-    /// Clamp travel then, m.
+    /// Clamp travel at its end, m.
     pub travel_m: f64,
-    /// Pressure on the clamp's body then, Pa.
+    /// Pressure on the clamp's body at its end, Pa.
     pub pressure_pa: f64,
-    /// Whether the bond had closed then, under less than the stage's pressure.
+    /// Whether the bond had closed by its end, under less than the stage's pressure.
     pub closed_below: bool,
-    /// Total WP then, m, where the history tells it.
+    /// Total WP at its end, m, if the history has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wp_m: Option<f64>,
 }
 
-/// How the stages of a programme ended so far, by a history of this text.
-pub(crate) fn programme(run: Option<&PressRun>, history: &str) -> Vec<PressedStage> {
+/// The ended stages of a press programme; `history` is the text of the history, which has their WP.
+pub(crate) fn ended_stages(run: Option<&PressRun>, history: &str) -> Vec<PressedStage> {
     let stages = run
         .into_iter()
         .flat_map(|run| run.ended().map(move |at| (run, at)));
@@ -140,7 +140,7 @@ pub(crate) fn text(summary: &impl Serialize) -> String {
     serde_json::to_string_pretty(summary).unwrap_or_default() + "\n"
 }
 
-/// A time (s) in the unit that suits it, with `digits` behind the point.
+/// A time (s) in a suitable unit, with `digits` decimals.
 pub(crate) fn time(seconds: f64, digits: usize) -> String {
     match seconds {
         s if s < 1e-3 => format!("{:.digits$} us", s * 1e6),
@@ -150,17 +150,17 @@ pub(crate) fn time(seconds: f64, digits: usize) -> String {
     }
 }
 
-/// A pressure (Pa) in MPa with `digits` behind the point, or in Pa where they would all be 0.
+/// A pressure (Pa) in MPa with `digits` decimals, or in Pa if they would all be 0.
 pub(crate) fn pressure(pascal: f64, digits: usize) -> String {
     let last = 1e6 * 0.1_f64.powi(digits as i32);
     match pascal.abs() {
-        // Rounded to nothing it has no sign.
+        // Adding 0 removes the sign of -0.
         small if small < 0.5 * last => format!("{:.0} Pa", pascal.round() + 0.0),
         _ => format!("{:.digits$} MPa", pascal / 1e6),
     }
 }
 
-/// What made a run folder, as a summary has it.
+/// Provenance in the form of the summary.
 pub(crate) fn provenance(by: &Provenance) -> serde_json::Value {
     let inputs = by.inputs.iter();
     let inputs: Vec<_> = inputs
@@ -170,13 +170,14 @@ pub(crate) fn provenance(by: &Provenance) -> serde_json::Value {
 }
 
 impl Summary {
-    /// What a press had come to before it let go, which air may undo, and what that air makes uncertain.
-    fn held(&self) -> String {
+    /// Note on WP: its value before a release, after which air may push the adhesive back, and its uncertainty due to air that
+    /// the sides trap.
+    fn wp_note(&self) -> String {
         let stages = self.programme.windows(2);
         let held = (stages.filter(|stages| stages[1].kind == "release"))
             .find_map(|stages| stages[0].wp_m)
             .map(|wp| format!("{:.2} um before the release", 1e6 * wp));
-        let mut left_out = self.account.left_out.iter();
+        let mut left_out = self.preliminaries.left_out.iter();
         let doubt = (left_out.any(|item| item.what == BEYOND_SIDES)).then(|| UNCERTAIN.to_owned());
         let notes: Vec<String> = held.into_iter().chain(doubt).collect();
         match notes.is_empty() {
@@ -215,8 +216,8 @@ impl Summary {
                 true => line + ", adhesive at the outer face of the wood",
                 false => line,
             };
-            let (wp, held) = (1e6 * found.wp_m.total, self.held());
-            format!("{line}, WP {wp:.2} um{held}")
+            let (wp, note) = (1e6 * found.wp_m.total, self.wp_note());
+            format!("{line}, WP {wp:.2} um{note}")
         });
         let left = match self.points_left {
             0 => String::new(),

@@ -1,14 +1,14 @@
-//! The time loop: steps until the end, and what is written on the way.
+//! The time loop: steps until an end condition, with rows, snapshots and checkpoints on the way.
 
 use std::time::{Duration, Instant};
 
 use physics::{Diagnostics, Failure, Scheme, Stop};
 
-use crate::bond_measures::Watch;
+use crate::bond_measures::BondMeter;
 use crate::checkpoint::{self, Checkpoint, Origin};
 use crate::clock::Clock;
 use crate::courant::Courant;
-use crate::ends::{Ahead, End, Ends};
+use crate::end_conditions::{End, EndConditions, PossibleEnd};
 use crate::failure::RunFailure;
 use crate::folder::RunFolder;
 use crate::history::History;
@@ -20,33 +20,33 @@ use crate::verdict;
 /// Wall time between checkpoints.
 const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
 
-/// A run about to take steps.
+/// All that the time loop of a run needs.
 pub(crate) struct TimeLoop<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) folder: &'a RunFolder,
-    /// Where the run is.
+    /// Progress of the run.
     pub(crate) clock: Clock,
-    /// Which part of the run was, and will be, taken at which Courant number.
+    /// Courant numbers and the steps from which they hold.
     pub(crate) courant: Vec<Courant>,
     pub(crate) history: History,
     pub(crate) writer: &'a SnapshotWriter<'a>,
-    /// Snapshots over the nominal duration; under a press programme over the way of the clamp, and one at the end of
-    /// each stage. 0 for none.
+    /// Number of snapshots over the nominal duration, 0 for none. With a press programme: over the clamp's travel, and one more at
+    /// the end of each stage.
     pub(crate) snapshots: u32,
-    /// What each row of the history tells of the bond, if that is asked for.
-    pub(crate) watch: Option<&'a Watch<'a>>,
-    /// What checkpoints are of.
+    /// Measures the bond for each row of the history, if the case asks for it.
+    pub(crate) meter: Option<&'a BondMeter<'a>>,
+    /// Identity of the run in its checkpoints.
     pub(crate) origin: Origin,
-    /// Whether the user asked to stop.
+    /// Whether the user has asked to stop.
     pub(crate) interrupted: &'a dyn Fn() -> bool,
-    /// Told after every step: the ends ahead, and time and pressure in words.
-    pub(crate) progress: &'a mut dyn FnMut(&[Ahead], String),
+    /// Called after every step with the possible ends, and with time and pressure as text.
+    pub(crate) progress: &'a mut dyn FnMut(&[PossibleEnd], String),
 }
 
-/// What the loop did.
+/// Result of the time loop.
 pub(crate) struct Outcome {
     pub(crate) end: End,
-    /// Clock at the end.
+    /// Progress at the end.
     pub(crate) clock: Clock,
     pub(crate) courant: Vec<Courant>,
     /// Wall time spent in steps by this process.
@@ -58,29 +58,29 @@ pub(crate) struct Outcome {
 }
 
 impl TimeLoop<'_> {
-    /// Runs `scheme` to its end.
+    /// Runs `scheme` until an end condition.
     /// Errors: an unstable state or an output that cannot be written.
     pub(crate) fn run(mut self, scheme: &mut dyn Scheme) -> Result<Outcome, RunFailure> {
-        let ends = Ends::of(self.setup);
+        let ends = EndConditions::new(self.setup);
         let (mut stepping, mut steps_here) = (Duration::ZERO, 0);
         let mut last_checkpoint = Instant::now();
         let end = loop {
             if let Some(end) = ends.reached(&self.clock, scheme) {
                 break end;
             }
-            let (way, stages) = (self.clock.travel_m, stages_over(scheme));
+            let (travel_before_m, stages) = (self.clock.travel_m, stages_over(scheme));
             let begun = Instant::now();
             let report = scheme
                 .advance(ends.limit(&self.clock))
-                .and_then(|report| verdict::step(self.setup, &report).map(|()| report))
+                .and_then(|report| verdict::check_step(self.setup, &report).map(|()| report))
                 .map_err(|failure| self.unstable(failure))?;
             stepping += begun.elapsed();
             steps_here += 1;
-            self.clock.took(report);
+            self.clock.advance(report);
             let pressure = summary::pressure(report.pressure_top, 3);
             let state = format!("{}, {pressure}", summary::time(self.clock.time_s, 3));
-            (self.progress)(&ends.ahead(&self.clock), state);
-            self.write_due(scheme, way, stages_over(scheme) > stages)?;
+            (self.progress)(&ends.possible_ends(&self.clock), state);
+            self.write_due(scheme, travel_before_m, stages_over(scheme) > stages)?;
             let stop = (self.interrupted)();
             if stop || last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
                 self.write_checkpoint(scheme)?;
@@ -95,7 +95,7 @@ impl TimeLoop<'_> {
             if self.clock.row_missing {
                 self.row(scheme, diagnostics)?;
             }
-            // Before the final state, which says that the run has ended.
+            // Must come before the final state, which marks the run as ended.
             self.history.sync()?;
         }
         Ok(Outcome {
@@ -118,30 +118,29 @@ impl TimeLoop<'_> {
         }
     }
 
-    /// Writes row and snapshot where they are due after a step from `way` (m) of the clamp on, which may have ended a
-    /// stage of a press programme.
+    /// Writes the row and the snapshot that are due after a step; `travel_before_m` is the clamp travel before the step.
     fn write_due(
         &mut self,
         scheme: &dyn Scheme,
-        way: f64,
+        travel_before_m: f64,
         stage_over: bool,
     ) -> Result<(), RunFailure> {
         if self.clock.time_s >= self.clock.next_history_s {
             self.row(scheme, scheme.diagnostics())?;
-            // After a step longer than the interval, do not catch up with a burst of rows.
+            // After a step longer than the interval, do not catch up with one row per step.
             let next = self.clock.next_history_s + self.setup.history_every_s;
             self.clock.next_history_s = next.max(self.clock.time_s);
         }
         let by_time = self.clock.time_s >= self.clock.next_snapshot_s;
-        let of_way = match self.setup.scene.stop {
+        let by_travel = match self.setup.scene.stop {
             Stop::Closed { travel_m } if scheme.programme().is_some() && self.snapshots > 0 => {
-                let part = |way: f64| (f64::from(self.snapshots) * way / travel_m).floor();
-                stage_over || part(self.clock.travel_m) > part(way)
+                let part = |travel: f64| (f64::from(self.snapshots) * travel / travel_m).floor();
+                stage_over || part(self.clock.travel_m) > part(travel_before_m)
             }
             _ => false,
         };
-        if by_time || of_way {
-            self.look(&scheme.diagnostics())?;
+        if by_time || by_travel {
+            self.check_state(&scheme.diagnostics())?;
             self.writer.write_numbered(&mut self.clock, scheme)?;
         }
         if by_time {
@@ -150,7 +149,7 @@ impl TimeLoop<'_> {
         Ok(())
     }
 
-    /// Time between snapshots, s; infinite for none, and under a press programme.
+    /// Time between snapshots, s; infinite for none, and for a press programme.
     fn snapshot_every_s(&self) -> f64 {
         match self.snapshots {
             n if n > 0 && self.setup.scene.programme.is_empty() => {
@@ -161,9 +160,9 @@ impl TimeLoop<'_> {
     }
 
     fn write_checkpoint(&self, scheme: &dyn Scheme) -> Result<(), RunFailure> {
-        // What is not fit is no checkpoint, but only rows and snapshots end a run for it: a run
-        // must not depend on when the wall clock asks.
-        if self.look(&scheme.diagnostics()).is_err() {
+        // An unsound state is not saved. It does not end the run here either: the result must not depend on the wall clock, by
+        // which checkpoints are due.
+        if self.check_state(&scheme.diagnostics()).is_err() {
             return Ok(());
         }
         let checkpoint = Checkpoint {
@@ -175,23 +174,23 @@ impl TimeLoop<'_> {
         checkpoint::write(self.folder, &self.origin, checkpoint)
     }
 
-    /// Looks at the state before any of it is written.
-    fn look(&self, diagnostics: &Diagnostics) -> Result<(), RunFailure> {
-        verdict::state(self.setup, diagnostics, self.clock.last.lost)
+    /// Checks the state before any of it is written.
+    fn check_state(&self, diagnostics: &Diagnostics) -> Result<(), RunFailure> {
+        verdict::check_state(self.setup, diagnostics, self.clock.last_step.lost)
             .map_err(|failure| self.unstable(failure))
     }
 
     fn row(&mut self, scheme: &dyn Scheme, diagnostics: Diagnostics) -> Result<(), RunFailure> {
-        self.look(&diagnostics)?;
+        self.check_state(&diagnostics)?;
         self.clock.row_missing = false;
         let stage = scheme.programme().map(|run| run.last_stage() + 1);
-        let lost = self.clock.last.lost;
-        let moment = (self.watch.map(|watch| watch.look(scheme, lost))).transpose()?;
-        (self.history).row(self.setup, &self.clock, &diagnostics, stage, moment)
+        let lost = self.clock.last_step.lost;
+        let bond = (self.meter.map(|meter| meter.measure_row(scheme, lost))).transpose()?;
+        (self.history).row(self.setup, &self.clock, &diagnostics, stage, bond)
     }
 }
 
-/// Stages of a press programme that are over.
+/// Number of ended stages of the press programme.
 fn stages_over(scheme: &dyn Scheme) -> usize {
     scheme.programme().map_or(0, |run| run.ended().count())
 }

@@ -1,25 +1,25 @@
-//! Why a saddle-point system was not solved.
+//! Likely causes of a failed solve.
 
 use crate::pockets::components;
 use crate::system::SaddleSystem;
 use crate::{NEARLY, SolveError};
 
-/// What of a system is likely to blame where the iteration fails.
+/// The property of a system that likely made the iteration fail.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Cause {
-    /// Sources of a closed space, no cell of it at a free surface, that compression alone takes up.
+    /// Unbalanced sources in a closed space, without a free surface, that only compression takes up.
     #[error("sources of {cells} connected cells without a free surface do not balance")]
     Unbalanced {
-        /// Its cells.
+        /// Number of cells of the space.
         cells: usize,
     },
-    /// Viscosity against compressibility.
+    /// Large viscosity times compressibility.
     #[error("viscosity times compressibility is {ratio:.0e}")]
     Stiff {
         /// eta/(K dt), the largest 2 eta C.
         ratio: f64,
     },
-    /// Inertia against viscosity.
+    /// Large inertia over viscosity.
     #[error("inertia and friction are {ratio:.0e} times the viscosity")]
     Inertial {
         /// rho h^2/(eta dt), the largest D_B over the largest 2 eta.
@@ -30,19 +30,19 @@ pub enum Cause {
     Unknown,
 }
 
-/// Weight of inertia and friction over viscosity beyond which they are named as the cause; as the next two, words of a message
-/// alone.
-const FAST: f64 = 1e6;
-/// Viscosity times compressibility beyond which it is named.
+/// Inertia and friction over viscosity above which they are named as the cause. This and the next two bounds only choose
+/// the words of a message.
+const INERTIAL: f64 = 1e6;
+/// Viscosity times compressibility above which it is named as the cause.
 const STIFF: f64 = 1e8;
-/// Pressure, in units of viscosity times speed over a cell, up to which compression takes up the sources of a
-/// closed space without harm.
-const TAKEN_UP: f64 = 1e4;
-/// Part of the sources of a closed space that may be left over by rounding.
+/// Pressure, in units of viscosity times speed over cell, up to which compression takes up the sources of a closed space
+/// without harm.
+const HARMLESS: f64 = 1e4;
+/// Rounding of the sum of the sources of a closed space, relative.
 const BALANCED: f64 = 1e-6;
 
-/// The error with its likely cause; one that a step can live with stays as it is.
-pub(crate) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError {
+/// Adds the likely cause to an error; an error with a usable solution stays as it is.
+pub(crate) fn with_cause(error: SolveError, system: &SaddleSystem) -> SolveError {
     let near = |residual, tolerance| residual <= NEARLY * tolerance;
     match error {
         SolveError::NotConverged {
@@ -67,14 +67,14 @@ fn cause(system: &SaddleSystem) -> Cause {
         Cause::Unbalanced { cells }
     } else if stiffness > STIFF {
         Cause::Stiff { ratio: stiffness }
-    } else if inertia > FAST {
+    } else if inertia > INERTIAL {
         Cause::Inertial { ratio: inertia }
     } else {
         Cause::Unknown
     }
 }
 
-/// Cells of the first closed space (no cell of it at a free surface) whose sources do not balance.
+/// Number of cells of the first closed space (without a free surface) whose sources do not balance.
 fn unbalanced(system: &SaddleSystem) -> Option<usize> {
     let faces = system.g.transpose();
     let sides = |cell: u32| {
@@ -98,7 +98,7 @@ fn unbalanced(system: &SaddleSystem) -> Option<usize> {
                 .iter()
                 .any(|&cell| sides(cell).any(|sides| sides.len() < 2))
         };
-        left > (BALANCED * moved).max(TAKEN_UP * softness) && !open()
+        left > (BALANCED * moved).max(HARMLESS * softness) && !open()
     };
     let mut spaces = components(system.g.n_rows(), neighbours);
     spaces.find(unbalanced).map(|space| space.len())
@@ -109,7 +109,8 @@ mod tests {
     use super::*;
     use crate::{Csr, VelocityBlock};
 
-    /// What `said` makes of two cells and the face between them, closed, with a friction, a compressibility and a source left over.
+    /// Applies `said` to a closed system of two cells and the face between them, with given friction, compressibility and
+    /// unbalanced source.
     fn of<T>([friction, c, left]: [f64; 3], said: impl Fn(&SaddleSystem) -> T) -> T {
         let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0)).unwrap();
         let pair = Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell]));
@@ -134,7 +135,7 @@ mod tests {
         }
     }
 
-    /// A residual up to ten times the tolerance is one that a step can live with.
+    /// A residual up to ten times the tolerance is usable.
     #[test]
     fn a_solution_nearly_there_needs_no_cause() {
         let kept = |residual: f64| {
@@ -143,7 +144,9 @@ mod tests {
                 residual,
                 tolerance: 1e-5,
             };
-            of([0.0; 3], |system| explained(error.clone(), system) == error)
+            of([0.0; 3], |system| {
+                with_cause(error.clone(), system) == error
+            })
         };
         assert!(kept(0.9e-4) && !kept(1.1e-4));
     }

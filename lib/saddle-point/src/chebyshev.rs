@@ -6,10 +6,10 @@ use crate::packed::{Absolute, Finish, LANES, Lanes, PackedMatrix};
 use crate::vector::{CHUNK, Real, Work, for_each};
 use crate::velocity_block::VelocityBlock;
 
-/// Sweeps that tighten the bound of the largest eigenvalue, to within 25 %.
+/// Sweeps for the bound of the largest eigenvalue, which is then tight to 25 %.
 const BOUND_SWEEPS: usize = 6;
-/// Largest over smallest eigenvalue of a widened interval: with 400, 1600, 6400 and 25,600 the hardest step of a wide bond of
-/// PVA-PF takes 10.8, 7.8, 5.9 and 9.4 s.
+/// Largest over smallest eigenvalue of the widened interval. With 400, 1600, 6400 and 25,600 the hardest step of a wide bond
+/// of PVA-PF takes 10.8, 7.8, 5.9 and 9.4 s.
 const WIDEST: f64 = 6400.0;
 
 /// `p(A) ~ A^-1` for a symmetric positive definite `A` with diagonal `D`: `S q(S A S) S` with
@@ -43,7 +43,7 @@ impl<'a> Chebyshev<'a> {
         }
     }
 
-    /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`.
+    /// The scaled residual `S (b - A x)` of the last [`Chebyshev::apply`], plus `S more(row)`.
     pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> &[Work] {
         let (rhs, scale) = (&self.rhs, &self.block.scale);
         let (now, before) = (&mut self.now, &mut self.before);
@@ -55,7 +55,7 @@ impl<'a> Chebyshev<'a> {
         &self.before
     }
 
-    /// Takes in eigenvalues down to the bound over [`WIDEST`]; whether it did not before.
+    /// Widens the interval down to the bound over [`WIDEST`]; returns whether it was narrower before.
     pub(crate) fn widen(&mut self) -> bool {
         let wider = (WIDEST / self.ratio).sqrt();
         if wider > 1.0 {
@@ -107,7 +107,7 @@ impl Finish for Residual<'_> {
     }
 }
 
-/// The next iterate in the place of the one before the last.
+/// Replaces the iterate before the last by the next one.
 struct Step<'a> {
     rhs: &'a [Work],
     momentum: Work,
@@ -127,8 +127,8 @@ impl Finish for Step<'_> {
 
 /// Upper bound of the spectral radius of `I + M` for symmetric `M` with zero diagonal: for any
 /// positive `w`, `rho(I + M) <= rho(I + |M|) <= max_i ((I + |M|) w)_i / w_i` (Collatz 1942).
-/// Each sweep `w <- (I + |M|) w` tightens the bound, that of the last is taken; unlike a power iteration it is never too low,
-/// which would make the polynomial amplify the missed modes.
+/// Each sweep `w <- (I + |M|) w` tightens the bound, and the last one is used. Unlike an estimate by power iteration it is
+/// never too low, which would make the polynomial amplify the missed modes.
 ///
 /// `w` and `next` are zeros of the padded length and are left so.
 fn largest_eigenvalue_bound(
@@ -155,8 +155,8 @@ fn largest_eigenvalue_bound(
 mod tests {
     use super::*;
 
-    /// Of degree k on [l, h], with T_k the Chebyshev polynomial and s = (h + l)/(h - l), an eigenvector of
-    /// eigenvalue e is left with T_k(s - 2 e/(h - l)) / T_k(s) of its residual.
+    /// An iteration of degree k on [l, h] multiplies the residual of an eigenvector with eigenvalue e by
+    /// T_k(s - 2 e/(h - l)) / T_k(s), with the Chebyshev polynomial T_k and s = (h + l)/(h - l).
     #[test]
     fn the_residual_is_the_chebyshev_polynomial() {
         // D^-1 A has the eigenvalues 1.6 and 0.4, with S x = (1, 1) and (1, -1).
@@ -191,7 +191,7 @@ mod tests {
         }
     }
 
-    /// The degree grows as the root of the interval, once.
+    /// The degree grows with the root of the ratio, once.
     #[test]
     fn an_interval_is_widened_once() {
         let one = VelocityBlock::assemble(1, |_, list| list.add(0, 2.0)).unwrap();

@@ -15,7 +15,7 @@ pub struct Csr<T> {
     values: Vec<T>,
 }
 
-/// Entries of a row from which on looking for a column takes longer than sorting them.
+/// Entries of a row above which the search for a column takes longer than sorting.
 const LONG: usize = 64;
 
 /// One row under assembly; entries to the same column add up.
@@ -39,7 +39,7 @@ impl RowEntries {
         }
     }
 
-    /// Columns ascending and unique. Sums of long rows are made here, in the order of their values.
+    /// Sorts the columns and makes them unique. Duplicates in long rows are added up here, in the order of their values.
     fn finish(&mut self) {
         if self.entries.len() < LONG {
             self.entries.sort_unstable_by_key(|entry| entry.0);
@@ -71,7 +71,7 @@ impl<T> Rows<T> {
         (&self.columns[range.clone()], &self.values[range])
     }
 
-    /// How many rows.
+    /// Number of rows.
     pub(crate) fn len(&self) -> usize {
         self.row_end.len()
     }
@@ -215,7 +215,7 @@ impl<T: Real> Csr<T> {
     }
 }
 
-/// The value of a row in a column, zero where none is stored.
+/// The value of a row in a column, zero if none is stored.
 pub(crate) fn value_at<T: Real>((columns, values): (&[u32], &[T]), column: usize) -> T {
     let at = columns.binary_search(&(column as u32));
     at.map_or_else(|_| T::default(), |at| values[at])

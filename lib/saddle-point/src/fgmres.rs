@@ -5,8 +5,7 @@ use crate::least_squares::LeastSquares;
 use crate::orthogonal::orthogonalise;
 use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum};
 
-/// The estimated residual is driven this far below the tolerance, so that its rounding does not
-/// cost another cycle.
+/// Safety factor on the tolerance for the estimated residual, so that its rounding does not cost another cycle.
 const MARGIN: f64 = 0.98;
 
 /// The linear operator of the system, in double precision.
@@ -15,25 +14,25 @@ pub(crate) trait Operator {
     fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]);
 }
 
-/// Iterations that must bring the residual below [`STALLED`] of what it was, or a stronger preconditioner takes over if there is
-/// one, in a cycle of its own. Most solves take less than 20; at this rate 1e-3 takes 57.
-const PATIENCE: usize = 10;
+/// Iterations in which the residual must fall below the fraction [`STALLED`]; else the preconditioner is strengthened, if it
+/// can be, and a new cycle starts. Most solves take fewer than 20 iterations; at this rate 1e-3 takes 57.
+const TRIAL_ITERATIONS: usize = 10;
 const STALLED: f64 = 0.3;
 
-/// And those that, with the residual below this part of what it was, end a cycle: its vectors cost the most memory of a step, and
-/// such a solve loses next to nothing with them: 1 % more iterations for half the vectors.
+/// A cycle also ends after [`TRIAL_ITERATIONS`] iterations if the residual has fallen below this fraction. Its vectors take most of the
+/// memory of a step, and the restart costs little: 1 % more iterations for half the vectors.
 const PROMPT: f64 = 0.1;
 
-/// What approximates the inverse of the operator.
+/// An approximate inverse of the operator.
 pub(crate) trait Precondition {
-    /// `z` is that of `r`.
+    /// Applies the approximate inverse to `r`, into `z`.
     fn apply(&mut self, r: &[Work], z: &mut Vec<Work>);
 
-    /// Adds to `x` before a cycle, in double precision and by the residual `r`, what its own precision cannot tell; whether
-    /// there is anything.
-    fn begin(&self, r: &[f64], x: &mut [f64]) -> bool;
+    /// Before a cycle, adds to `x`, in double precision, the part of the correction for the residual `r` that single precision
+    /// cannot resolve. Returns whether there is any.
+    fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool;
 
-    /// Makes it nearer to the inverse, for more work; whether it could.
+    /// Makes the approximation better at more cost; returns whether it could.
     fn strengthen(&mut self) -> bool;
 }
 
@@ -44,14 +43,14 @@ const RESTART: usize = 30;
 #[derive(Clone, Copy)]
 pub(crate) struct Limits {
     pub(crate) tolerance: f64,
-    /// What the tolerance is relative to; 0 where `b` is.
-    pub(crate) size: f64,
-    /// Part of the residual at the start that is enough; 0 where the tolerance must be reached.
+    /// Scale of the tolerance; 0 for the norm of `b`.
+    pub(crate) scale: f64,
+    /// Fraction of the initial residual that is enough; 0 if the tolerance must be reached.
     pub(crate) enough: f64,
     pub(crate) max_iterations: usize,
 }
 
-/// Krylov basis and its preconditioned images, kept between solves.
+/// Krylov basis and its preconditioned images, reused between cycles.
 #[derive(Default)]
 pub(crate) struct KrylovSpace {
     basis: Vec<Vec<Work>>,
@@ -69,45 +68,45 @@ pub(crate) fn fgmres<K: Operator>(
     limits: Limits,
     space: &mut KrylovSpace,
 ) -> Result<Vec<f64>, SolveError> {
-    let size = limits.size;
-    if size == 0.0 {
+    let scale = limits.scale;
+    if scale == 0.0 {
         x.fill(0.0);
         return Ok(vec![0.0]);
     }
-    if !size.is_finite() {
-        return Err(overflow(0, size));
+    if !scale.is_finite() {
+        return Err(overflow(0, scale));
     }
     fit(&mut space.vector, b.len());
     let mut history = Vec::new();
-    let mut wanted = limits.tolerance * size;
+    let mut wanted = limits.tolerance * scale;
     loop {
         let mut residual = true_residual(operator, b, x, &mut space.vector);
-        if preconditioner.begin(&space.vector, x) {
+        if preconditioner.correct_in_double(&space.vector, x) {
             residual = true_residual(operator, b, x, &mut space.vector);
         }
         if history.is_empty() {
             wanted = wanted.max(limits.enough * residual);
         }
         history.pop();
-        history.push(residual / size);
+        history.push(residual / scale);
         let iterations = history.len() - 1;
         if residual <= wanted {
             return Ok(history);
         }
         if !residual.is_finite() {
-            return Err(overflow(iterations, residual / size));
+            return Err(overflow(iterations, residual / scale));
         }
         if iterations >= limits.max_iterations {
             return Err(SolveError::NotConverged {
                 iterations,
-                residual: residual / size,
+                residual: residual / scale,
                 tolerance: limits.tolerance,
             });
         }
         let cycle = Cycle {
             residual,
             target: MARGIN * wanted,
-            size,
+            scale,
             steps: RESTART.min(limits.max_iterations - iterations),
         };
         cycle.run(operator, preconditioner, x, space, &mut history)?;
@@ -123,12 +122,12 @@ fn overflow(after: usize, residual: f64) -> SolveError {
 
 /// The iterations between two restarts.
 struct Cycle {
-    /// Norm of the residual at the start, which is the first vector of the space.
+    /// Norm of the residual at the start, whose direction is the first vector of the space.
     residual: f64,
-    /// And that at which the cycle ends.
+    /// Norm of the residual at which the cycle ends.
     target: f64,
-    /// What residuals of the history are relative to.
-    size: f64,
+    /// Scale of the residuals in the history.
+    scale: f64,
     /// Most iterations.
     steps: usize,
 }
@@ -144,33 +143,33 @@ impl Cycle {
         history: &mut Vec<f64>,
     ) -> Result<(), SolveError> {
         let mut least_squares = LeastSquares::new(self.residual);
-        normalise(&space.vector, self.residual, slot(&mut space.basis, 0));
+        normalise(&space.vector, self.residual, vector_at(&mut space.basis, 0));
         for k in 0..self.steps {
-            let z = slot(&mut space.preconditioned, k);
+            let z = vector_at(&mut space.preconditioned, k);
             fit(z, x.len());
             preconditioner.apply(&space.basis[k], z);
             operator.apply(z, &mut space.vector);
             let (column, remaining) = orthogonalise(&space.basis[..=k], &mut space.vector);
             if !remaining.is_finite() {
-                let residual = least_squares.residual() / self.size;
+                let residual = least_squares.residual() / self.scale;
                 return Err(overflow(history.len() - 1, residual));
             }
             least_squares.push(column, remaining);
-            history.push(least_squares.residual() / self.size);
+            history.push(least_squares.residual() / self.scale);
             if least_squares.residual() <= self.target || remaining == 0.0 {
                 break;
             }
-            let before = history.iter().rev().nth(PATIENCE);
-            let left = before.map(|before| least_squares.residual() / (before * self.size));
+            let before = history.iter().rev().nth(TRIAL_ITERATIONS);
+            let left = before.map(|before| least_squares.residual() / (before * self.scale));
             let ends = match left {
                 Some(left) if left > STALLED => preconditioner.strengthen(),
-                Some(left) => left < PROMPT && k + 1 >= PATIENCE,
+                Some(left) => left < PROMPT && k + 1 >= TRIAL_ITERATIONS,
                 None => false,
             };
             if ends {
                 break;
             }
-            normalise(&space.vector, remaining, slot(&mut space.basis, k + 1));
+            normalise(&space.vector, remaining, vector_at(&mut space.basis, k + 1));
         }
         for (z, y) in space.preconditioned.iter().zip(least_squares.solve()) {
             add_scaled(x, y, z);
@@ -191,8 +190,8 @@ fn true_residual<K: Operator>(operator: &mut K, b: &[f64], x: &[f64], out: &mut 
     square.sqrt()
 }
 
-/// Vector `index` of `vectors`, made if it does not exist yet.
-fn slot(vectors: &mut Vec<Vec<Work>>, index: usize) -> &mut Vec<Work> {
+/// Vector `index` of `vectors`, created if it does not exist.
+fn vector_at(vectors: &mut Vec<Vec<Work>>, index: usize) -> &mut Vec<Work> {
     if vectors.len() <= index {
         vectors.resize_with(index + 1, Vec::new);
     }
@@ -213,7 +212,7 @@ fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
 mod tests {
     use super::*;
 
-    /// diag(1, 1/2^power, 1/3^power, ..), whose inverse is at hand once it is asked for, and how often it was applied.
+    /// diag(1, 1/2^power, 1/3^power, ..) with a count of its applications; its strengthened preconditioner is the exact inverse.
     #[derive(Clone, Copy)]
     struct Steep {
         power: f64,
@@ -237,7 +236,7 @@ mod tests {
             *z = r.iter().enumerate().map(inverse).collect();
         }
 
-        fn begin(&self, _: &[f64], _: &mut [f64]) -> bool {
+        fn correct_in_double(&self, _: &[f64], _: &mut [f64]) -> bool {
             false
         }
 
@@ -246,11 +245,11 @@ mod tests {
         }
     }
 
-    /// Residuals by iteration over `n` rows, how often the operator was applied, and the basis vectors that it took.
+    /// Residuals by iteration for `n` rows, number of applications of the operator, and number of basis vectors.
     fn solve(n: usize, power: f64, tolerance: f64) -> (Vec<f64>, usize, usize) {
         let limits = Limits {
             tolerance,
-            size: (n as f64).sqrt(),
+            scale: (n as f64).sqrt(),
             enough: 0.0,
             max_iterations: 200,
         };
@@ -265,8 +264,8 @@ mod tests {
         (history, operator.applied, space.preconditioned.len())
     }
 
-    /// An estimate just below the tolerance ends the cycle, one just above does not: neither an
-    /// iteration too many nor a cycle for rounding, which would apply the operator once more.
+    /// An estimate just below the tolerance ends the cycle and one just above does not: no extra iteration, and no extra cycle
+    /// due to rounding, which would apply the operator once more.
     #[test]
     fn one_cycle_reaches_the_tolerance_and_no_more() {
         let solve = |tolerance| solve(30, -1.0, tolerance);
@@ -277,8 +276,8 @@ mod tests {
         assert_eq!(above.1, above.0.len() - 1 + 2, "{:?}", above.0);
     }
 
-    /// Ten iterations that leave a little more than 0.3 of the residual give way to the inverse, which needs one or two; those
-    /// that leave a little less go on.
+    /// If ten iterations leave slightly more than 0.3 of the residual, the inverse takes over and needs one or two; if they leave
+    /// slightly less, the cycle continues.
     #[test]
     fn a_cycle_that_is_slow_gives_way_to_a_stronger_preconditioner() {
         let [fast, slow] = [1.5, 1.6].map(|power| solve(100, power, 1e-5).0);
@@ -292,7 +291,7 @@ mod tests {
         );
     }
 
-    /// Ten iterations that leave a little less than 0.1 of the residual end their cycle; those that leave a little more go on.
+    /// If ten iterations leave slightly less than 0.1 of the residual, the cycle ends; if slightly more, it continues.
     #[test]
     fn a_prompt_cycle_takes_ten_vectors() {
         let [(prompt, _, few), (other, _, more)] = [1.05, 1.2].map(|power| solve(100, power, 1e-5));

@@ -9,7 +9,7 @@ pub(crate) struct LeastSquares {
 }
 
 impl LeastSquares {
-    /// With a residual of norm `beta` and no column yet.
+    /// The problem for a residual of norm `beta`, without columns.
     pub(crate) fn new(beta: f64) -> Self {
         Self {
             columns: Vec::new(),
@@ -45,7 +45,7 @@ impl LeastSquares {
         self.rhs.last().map_or(0.0, |r| r.abs())
     }
 
-    /// Coefficients of the minimiser; a direction without effect gets none.
+    /// Coefficients of the minimiser; zero for a direction without effect.
     pub(crate) fn solve(&self) -> Vec<f64> {
         let n = self.columns.len();
         let mut y = self.rhs[..n].to_vec();

@@ -1,7 +1,7 @@
 //! Linear solver of the saddle-point systems of viscous flow on staggered grids.
 //!
-//! It solves `[A, -G^T; -G, -C] [u; p] = [b; -g]` for face velocities and cell pressures
-//! ([`SaddleSolver`]), and the same with one more unknown, the speed of a body under a known force ([`Load`]).
+//! [`SaddleSolver`] solves `[A, -G^T; -G, -C] [u; p] = [b; -g]` for face velocities and cell pressures, and the same system
+//! with one more unknown, the speed of a body under a known force ([`Load`]).
 //! Matrices are assembled row by row with [`Csr::assemble`]. Every result is bit-identical for any
 //! number of threads: work is split into fixed ranges of rows, and sums are added in their order.
 
@@ -12,12 +12,12 @@ mod csr;
 mod fgmres;
 mod least_squares;
 mod load;
-mod measure;
 mod options;
 mod orthogonal;
 mod packed;
 mod pockets;
 mod preconditioner;
+mod residual_scale;
 mod saddle;
 mod schur;
 mod sealed;
@@ -42,14 +42,14 @@ pub enum SolveError {
     /// Arrays that belong together differ in length.
     #[error("{what}: {found} given, {expected} expected")]
     Length {
-        /// Which array.
+        /// Name of the array.
         what: &'static str,
         /// Its length.
         found: usize,
-        /// The length that fits.
+        /// Expected length.
         expected: usize,
     },
-    /// A matrix or diagonal is not of the kind described.
+    /// A matrix or a diagonal lacks a required property.
     #[error("linear system: {0}")]
     Matrix(String),
     /// A right-hand side or a guess holds an infinity or is not a number.
@@ -71,7 +71,7 @@ pub enum SolveError {
         /// Relative residual wanted.
         tolerance: f64,
     },
-    /// The iteration met numbers that are not finite.
+    /// The iteration produced numbers that are not finite.
     #[error(
         "linear solver: numbers beyond single precision in iteration {iteration}, from a \
          relative residual of {residual:.1e}"
@@ -82,10 +82,10 @@ pub enum SolveError {
         /// Relative residual before it.
         residual: f64,
     },
-    /// [`SolveError::NotConverged`] or [`SolveError::Overflow`] with what is to blame.
+    /// [`SolveError::NotConverged`] or [`SolveError::Overflow`] with the likely cause.
     #[error("{error}: {cause}")]
     Unsolved {
-        /// How far the iteration came.
+        /// The failure of the iteration.
         error: Box<SolveError>,
         /// Its likely cause.
         cause: Cause,
@@ -93,7 +93,7 @@ pub enum SolveError {
 }
 
 impl SolveError {
-    /// The error of an iteration that went on from so many.
+    /// Adds the `before` iterations of an earlier call to the count of the error.
     fn after(mut self, before: usize) -> Self {
         match &mut self {
             Self::NotConverged { iterations, .. } => *iterations += before,
@@ -104,7 +104,7 @@ impl SolveError {
     }
 }
 
-/// A residual this many times the tolerance is near enough to be used: the next step goes on from it.
+/// A solution with a residual up to this many times the tolerance may be used; the next step continues from it.
 pub const NEARLY: f64 = 10.0;
 
 /// Refuses a length that does not fit.

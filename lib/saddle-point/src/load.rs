@@ -1,12 +1,12 @@
-//! A body of unknown speed under a known force, as one more unknown of the coupled system.
+//! A body under a known force, whose speed is one more unknown of the coupled system.
 
 use crate::fgmres::{Operator, Precondition};
 use crate::preconditioner::Preconditioner;
-use crate::sealed::Held;
+use crate::sealed::PocketResponse;
 use crate::vector::{Real, Work, add_scaled, dot};
 use crate::{SaddleSystem, SolveError, check_length};
 
-/// How a body's speed V enters the system, and the force that is to act on it:
+/// Coupling of a body's speed V to the system, and the force F on the body:
 /// `[A, -G^T, -m; -G, -C, s; -m^T, s^T, d] [u; p; V] = [b; -g; F]`, with b and g for V = 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Load {
@@ -14,11 +14,11 @@ pub struct Load {
     pub momentum: Vec<f64>,
     /// s: volume that unit speed displaces in each cell.
     pub source: Vec<f64>,
-    /// d: force per speed that the body feels with the liquid at rest and without pressure.
+    /// d: force per speed on the body, with liquid at rest and without pressure.
     pub resistance: f64,
-    /// F: force wanted.
+    /// F: force on the body.
     pub force: f64,
-    /// Force that errors of F are measured by, above zero: F itself, or more where F is next to nothing.
+    /// Scale of errors of F, above zero: F itself, or more if F is almost zero.
     pub scale: f64,
 }
 
@@ -45,41 +45,41 @@ impl Load {
         )))
     }
 
-    /// The same load with the velocities of the faces counted from the share t = m/A_ff of its speed V that each takes
-    /// alone, u = w + t V; and these shares. What is bound tightly to the body drags it and is dragged by it with next to the
-    /// same force, and a preconditioner would have to hit both to the part that is left.
-    pub(crate) fn followed(&self, system: &SaddleSystem) -> (Self, Vec<f64>) {
+    /// The load for the relative velocities w, with u = w + t V, and t = m/A_ff: the velocity per V of each face by itself.
+    /// Liquid that is tightly bound to the body and the body drag each other with nearly equal forces; in terms of u a
+    /// preconditioner would have to resolve their small difference.
+    pub(crate) fn relative_to_body(&self, system: &SaddleSystem) -> (Self, Vec<f64>) {
         let (a, g) = (system.a, system.g);
         let shares: Vec<f64> = (self.momentum.iter().zip(a.diagonal()))
             .map(|(momentum, own)| momentum / own)
             .collect();
-        let mut taken = vec![0.0; shares.len()];
-        a.multiply(&shares, &mut taken);
-        let momentum: Vec<f64> = (self.momentum.iter().zip(&taken))
-            .map(|(momentum, taken)| momentum - taken)
+        let mut dragged = vec![0.0; shares.len()];
+        a.multiply(&shares, &mut dragged);
+        let momentum: Vec<f64> = (self.momentum.iter().zip(&dragged))
+            .map(|(momentum, dragged)| momentum - dragged)
             .collect();
         let source = (self.source.iter().enumerate())
             .map(|(cell, source)| source - g.row_times_wide(cell, &shares))
             .collect();
-        let followed = Self {
+        let relative = Self {
             resistance: self.resistance - dot(&self.momentum, &shares) - dot(&momentum, &shares),
             momentum,
             source,
             force: self.force + dot(&shares, system.b),
             scale: self.scale,
         };
-        (followed, shares)
+        (relative, shares)
     }
 
-    /// [`SaddleSystem::measure`] with the body moving at `speed`.
-    pub(crate) fn measure(&self, system: &SaddleSystem, speed: f64) -> f64 {
+    /// [`SaddleSystem::motion_scale`] with the body moving at `speed`.
+    pub(crate) fn motion_scale(&self, system: &SaddleSystem, speed: f64) -> f64 {
         let moving = |known: &[f64], unit: &[f64]| -> Vec<f64> {
             (known.iter().zip(unit))
                 .map(|(known, unit)| known + speed * unit)
                 .collect()
         };
         let moved = moving(system.volume_source, &self.source);
-        system.measure(&moving(system.b, &self.momentum), &moved)
+        system.motion_scale(&moving(system.b, &self.momentum), &moved)
     }
 
     /// The column of V without its last entry, times `weight`.
@@ -91,7 +91,7 @@ impl Load {
     }
 }
 
-/// The system with the body's row and column, both scaled by a weight.
+/// The system with the row and the column of the body, both scaled by a weight.
 pub(crate) struct LoadedOperator<'a, K> {
     pub(crate) inner: &'a mut K,
     pub(crate) load: &'a Load,
@@ -113,22 +113,22 @@ impl<K: Operator> Operator for LoadedOperator<'_, K> {
     }
 }
 
-/// All but the last value, and that.
+/// The values before the last one, and the last one.
 fn split<X: Real>(x: &[X]) -> (&[X], X) {
     let (rest, last) = x.split_at(x.len() - 1);
     (rest, last[0])
 }
 
-/// The preconditioner M of the system without the body, bordered: with the column k of V and
-/// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z; and with the mean pressures of sealed pockets, of
-/// n cells each, (s V - r)/C by means s of the column and r of the residual: d is larger by sum n s^2/C, and
-/// r_V by sum n s r/C.
+/// The preconditioner M of the system without the body, bordered by the body's row and column. With the column k of V and
+/// z = M^-1 k it takes V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z. Sealed pockets of n cells have the mean
+/// pressure (s V - r)/C, with the means s of the column and r of the residual: this adds sum n s^2/C to d and sum n s r/C to
+/// r_V.
 pub(crate) struct Bordered<'a, 'b> {
     inner: &'b mut Preconditioner<'a>,
     faces: usize,
     column: Vec<Work>,
     response: Vec<Work>,
-    held: Held,
+    pocket_response: PocketResponse,
     /// d times the square of the weight.
     resistance: f64,
     pivot: f64,
@@ -141,20 +141,21 @@ impl<'a, 'b> Bordered<'a, 'b> {
             faces: load.momentum.len(),
             column: load.column(weight),
             response: Vec::new(),
-            held: inner.sealed().hold(&source),
+            pocket_response: inner.sealed().response_to(&source),
             resistance: weight * weight * load.resistance,
             pivot: 0.0,
             inner,
         };
-        bordered.respond();
+        bordered.update_response();
         bordered
     }
 
-    /// Finds the response to the column, and the pivot.
-    fn respond(&mut self) {
+    /// Computes the response z to the column, and the pivot.
+    fn update_response(&mut self) {
         self.inner.apply(&self.column, &mut self.response);
-        // Positive for a preconditioner near enough to the system, which resists.
-        let pivot = self.resistance - dot(&self.column, &self.response) + self.held.resistance();
+        // Positive if the preconditioner is close enough to the system, which resists motion.
+        let pivot =
+            self.resistance - dot(&self.column, &self.response) + self.pocket_response.resistance();
         self.pivot = pivot.abs().max(f64::MIN_POSITIVE);
     }
 }
@@ -165,33 +166,37 @@ impl Precondition for Bordered<'_, '_> {
         self.inner.apply(r, z);
         let (pockets, faces) = (&self.inner.sealed().pockets, self.faces);
         let means = pockets.means(&r[faces..]);
-        let force = f64::from(force[0]) - dot(&self.column, z) - self.held.push(&means);
+        let force =
+            f64::from(force[0]) - dot(&self.column, z) - self.pocket_response.force_at_rest(&means);
         let speed = force / self.pivot;
         add_scaled(z, -speed, &self.response);
-        pockets.subtract(&self.held.suction(&means, speed), &mut z[faces..]);
+        pockets.subtract(
+            &self.pocket_response.negative_pressures(&means, speed),
+            &mut z[faces..],
+        );
         z.push(Work::nearest(speed));
     }
 
     fn strengthen(&mut self) -> bool {
         let stronger = self.inner.strengthen();
         if stronger {
-            self.respond();
+            self.update_response();
         }
         stronger
     }
 
-    /// Adds mean pressures of sealed pockets and the speed: in single precision the rest would be lost beside them.
-    fn begin(&self, r: &[f64], x: &mut [f64]) -> bool {
+    /// Adds the mean pressures of sealed pockets and the speed: beside them, the rest would be lost in single precision.
+    fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool {
         let sealed = self.inner.sealed();
         if sealed.is_empty() {
             return false;
         }
         let ((r, force), (x, speed)) = (split(r), x.split_at_mut(x.len() - 1));
         let means = sealed.pockets.means(&r[self.faces..]);
-        let change = (force - self.held.push(&means)) / self.pivot;
-        let suction = self.held.suction(&means, change);
-        // Where the body displaces nothing, what the pocket holds is all that counts.
-        sealed.begin_others(&self.held, &means, &mut x[self.faces..]);
+        let change = (force - self.pocket_response.force_at_rest(&means)) / self.pivot;
+        let suction = self.pocket_response.negative_pressures(&means, change);
+        // Pockets in which the body displaces nothing depend on their own volume only.
+        sealed.add_means_of_undisplaced(&self.pocket_response, &means, &mut x[self.faces..]);
         sealed.pockets.subtract(&suction, &mut x[self.faces..]);
         speed[0] += change;
         true
@@ -203,8 +208,7 @@ mod tests {
     use super::*;
     use crate::{Csr, VelocityBlock};
 
-    /// Two faces and a cell, with 3 and 4 N on the faces that rest and the body's speed adding 2 and 8 to
-    /// the second and the cell.
+    /// Two faces and a cell: 3 and 4 N on the faces at rest; the body's speed adds 2 to the second face and 8 to the cell.
     #[test]
     fn the_tolerance_is_measured_by_what_moves() {
         let a = VelocityBlock::assemble(2, |row, entries| entries.add(row, 1.0)).unwrap();
@@ -223,7 +227,7 @@ mod tests {
                 ..SaddleSystem::still(&a, &g, &[1.0; 2], &[0.0; 2])
             };
             load.check(&system).unwrap();
-            load.measure(&system, speed)
+            load.motion_scale(&system, speed)
         };
         // sqrt(3^2 + (4 + 2)^2 + 8^2) = sqrt(109).
         assert!((measure(&[3.0, 4.0], 2.0) - 109_f64.sqrt()).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Settings of the solver, and what it reports.
+//! Settings and report of the solver.
 
 /// Settings of the solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ impl Default for SaddleOptions {
     }
 }
 
-/// What a solve did.
+/// Report of a solve.
 #[derive(Clone, Debug)]
 pub struct SaddleReport {
     /// Relative residual at the start and after every iteration.

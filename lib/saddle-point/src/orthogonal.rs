@@ -5,12 +5,12 @@ use rayon::prelude::*;
 use crate::simd::{Kernel, dispatch};
 use crate::vector::{CHUNK, Work, dot_each, for_chunks_sum};
 
-/// A vector is orthogonalised again when less than this fraction of its norm remains; half or twice of it changes rounding
-/// alone.
+/// A vector is orthogonalised again if less than this fraction of its norm remains. Half or twice the value only changes the
+/// rounding.
 const CANCELLED: f64 = 0.1;
 
-/// Removes from `vector` its components along `basis` by classical Gram-Schmidt, twice where
-/// little is left; returns the components and the norm of the remainder.
+/// Removes from `vector` its components along `basis` by classical Gram-Schmidt, twice if little remains. Returns the
+/// components and the norm of the remainder.
 pub(crate) fn orthogonalise(basis: &[Vec<Work>], vector: &mut [f64]) -> (Vec<f64>, f64) {
     let mut column = components(basis, vector);
     let mut remaining = subtract(basis, &column, vector);
@@ -59,10 +59,10 @@ fn subtract(basis: &[Vec<Work>], column: &[f64], vector: &mut [f64]) -> f64 {
     square.sqrt()
 }
 
-/// Basis vectors that one pass over a chunk takes at once; part of no result.
+/// Basis vectors in one pass over a chunk; does not affect results.
 const TOGETHER: usize = 4;
 
-/// Products of one chunk, that begins at row `start`, with basis vectors.
+/// Products with the basis vectors of one chunk, which begins at row `start`.
 struct Components<'a> {
     basis: &'a [Vec<Work>],
     start: usize,
@@ -90,7 +90,7 @@ impl Kernel for Components<'_> {
     }
 }
 
-/// Removes the components of one chunk, that begins at row `start`; yields its square.
+/// Removes the components in one chunk, which begins at row `start`; returns its squared norm.
 struct Subtraction<'a> {
     basis: &'a [Vec<Work>],
     column: &'a [f64],
@@ -133,8 +133,8 @@ mod tests {
     use super::*;
     use crate::vector::dot_chunk;
 
-    /// What is left of a vector along a basis that is a thousandth off orthogonal: nothing after a
-    /// second pass, where a fourteenth of it remains; where a seventh does, one pass is enough.
+    /// A basis that is a thousandth off orthogonal. If a fourteenth of a vector remains, a second pass removes its components; if
+    /// a seventh remains, one pass is enough.
     #[test]
     fn a_cancelled_vector_is_orthogonalised_twice() {
         let basis: [Vec<Work>; 2] = [vec![1.0, 0.0, 0.0], vec![1e-3, 1.0, 0.0]];

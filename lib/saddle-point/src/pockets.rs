@@ -1,17 +1,16 @@
-//! Closed pockets: connected cells on which a Poisson operator is singular.
+//! Closed pockets: connected cells on which a Poisson operator is singular, or nearly.
 
 use crate::csr::Csr;
 use crate::vector::Real;
 
-/// The connected components of the rows of a matrix on which the entries sum to nothing, or next to it, so
-/// that a constant is in the null space, or nearly.
+/// Connected components of a matrix whose row sums vanish, or nearly, so that constants are in the null space, or nearly.
 pub(crate) struct ClosedPockets {
-    /// The rows of each.
+    /// Rows of each pocket.
     pub(crate) members: Vec<Vec<u32>>,
 }
 
 impl ClosedPockets {
-    /// The components that `closed` finds so.
+    /// The components of `matrix` for which `closed` holds.
     pub(crate) fn of(matrix: &Csr<f64>, closed: impl Fn(&[u32]) -> bool) -> Self {
         let neighbours = |row: u32| matrix.row(row as usize).0.iter().copied();
         Self {
@@ -21,7 +20,7 @@ impl ClosedPockets {
         }
     }
 
-    /// Means over every closed pocket.
+    /// Mean over each pocket.
     pub(crate) fn means<T: Real>(&self, x: &[T]) -> Vec<f64> {
         let mean = |pocket: &Vec<u32>| {
             let sum: f64 = pocket.iter().map(|&row| x[row as usize].into()).sum();
@@ -30,7 +29,7 @@ impl ClosedPockets {
         self.members.iter().map(mean).collect()
     }
 
-    /// Subtracts one value of every closed pocket.
+    /// Subtracts a value on each pocket.
     pub(crate) fn subtract<T: Real>(&self, values: &[f64], x: &mut [T]) {
         for (pocket, &value) in self.members.iter().zip(values) {
             let value = T::nearest(value);
@@ -40,7 +39,7 @@ impl ClosedPockets {
         }
     }
 
-    /// Subtracts the mean over every closed pocket.
+    /// Subtracts the mean over each pocket.
     pub(crate) fn remove_mean<T: Real>(&self, x: &mut [T]) {
         self.subtract(&self.means(x), x);
     }
@@ -53,7 +52,7 @@ pub(crate) fn sum_and_diagonal(matrix: &Csr<f64>, row: u32) -> (f64, f64) {
     (values.iter().sum(), diagonal)
 }
 
-/// The connected components of `n` rows.
+/// The connected components of a graph with `n` nodes.
 pub(crate) fn components<I: Iterator<Item = u32>>(
     n: usize,
     neighbours: impl Fn(u32) -> I,

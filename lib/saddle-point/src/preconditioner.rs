@@ -1,4 +1,5 @@
-//! The preconditioner of the coupled system: velocities by Chebyshev iteration, pressures by the Schur complement, both by blocks.
+//! The preconditioner of the coupled system: Chebyshev iteration for the velocities, an approximate Schur complement for the
+//! pressures, and a Vanka sweep for both.
 
 use crate::SolveError;
 use crate::chebyshev::Chebyshev;
@@ -10,13 +11,13 @@ use crate::system::SaddleSystem;
 use crate::vanka::Vanka;
 use crate::vector::{Real, Work, for_each};
 
-/// Degree of the Chebyshev polynomial that stands for `A^-1`. Lower ones cost more iterations than they save: a hard step
-/// of a bond of 100 x 394 x 100 voxels takes 69 with 14 and 25 with 24.
+/// Degree of the Chebyshev polynomial for `A^-1`. Lower degrees cost more in iterations than they save: a hard step of a bond
+/// of 100 x 394 x 100 voxels takes 69 iterations with degree 14 and 25 with 24.
 const DEGREE: usize = 24;
-/// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
+/// Largest over smallest eigenvalue of `D^-1 A` in the interval of the polynomial.
 const RATIO: f64 = 400.0;
 
-/// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
+/// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] for the remaining residual.
 pub(crate) struct Preconditioner<'a> {
     g: &'a Csr<f64>,
     g_transposed: &'a Csr<f64>,
@@ -26,7 +27,7 @@ pub(crate) struct Preconditioner<'a> {
     scale: &'a [Work],
     schur: Schur,
     vanka: Vanka,
-    /// Right-hand side of the pressure solve, and what that leaves of the volume balance.
+    /// Right-hand side of the pressure solve, and residual of the volume balance after it.
     volume: Vec<Work>,
     left: Vec<Work>,
 }
@@ -49,12 +50,12 @@ impl<'a> Preconditioner<'a> {
         })
     }
 
-    /// The pockets whose means it leaves alone.
+    /// Sealed pockets, whose mean pressures [`Precondition::apply`] does not change.
     pub(crate) fn sealed(&self) -> &Sealed {
         &self.schur.sealed
     }
 
-    /// Upper bound of the eigenvalues of `D^-1 A` used.
+    /// Upper bound of the eigenvalues of `D^-1 A`.
     pub(crate) fn bound(&self) -> f64 {
         self.chebyshev.bound
     }
@@ -87,9 +88,9 @@ impl Precondition for Preconditioner<'_> {
         self.chebyshev.widen()
     }
 
-    fn begin(&self, r: &[f64], x: &mut [f64]) -> bool {
+    fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool {
         let (faces, sealed) = (self.g.n_columns(), self.sealed());
-        sealed.begin(&r[faces..], &mut x[faces..]);
+        sealed.add_mean_pressures(&r[faces..], &mut x[faces..]);
         !sealed.is_empty()
     }
 }

@@ -1,18 +1,18 @@
 //! Solution of the coupled velocity-pressure system.
 
 use crate::SolveError;
-use crate::cause::explained;
+use crate::cause::with_cause;
 use crate::csr::Csr;
 use crate::fgmres::{KrylovSpace, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
-use crate::measure::Measure;
 use crate::options::{SaddleOptions, SaddleReport};
 use crate::preconditioner::Preconditioner;
+use crate::residual_scale::ResidualScale;
 use crate::system::SaddleSystem;
 use crate::vector::{Real, add_scaled, for_each};
 
-/// Solver of [`SaddleSystem`]s. It keeps nothing: the vectors of an iteration would stand beside the next matrix as that is
-/// assembled, which takes the most memory.
+/// Solver of [`SaddleSystem`]s. It stores no vectors between solves: they would add to the peak of memory, the assembly of
+/// the next matrix.
 #[derive(Clone, Copy, Default)]
 pub struct SaddleSolver(SaddleOptions);
 
@@ -22,11 +22,10 @@ impl SaddleSolver {
         Self(options)
     }
 
-    /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
-    /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
-    /// polynomial in `A` for the velocities, then a friction Poisson cycle plus local viscosity for
-    /// the pressures; then a sweep that couples both cell by cell. Results do not depend on the
-    /// number of threads.
+    /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per cell), which receive the
+    /// solution. The preconditioner is block lower triangular: a Chebyshev polynomial in `A` for the velocities, then a
+    /// multigrid cycle of the friction Poisson operator plus local viscosity for the pressures. A Vanka sweep over the cells
+    /// couples both. Results do not depend on the number of threads.
     ///
     /// # Errors
     /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,
@@ -41,19 +40,19 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let rhs = system.right_hand_side();
-        let known = system.measure(system.b, system.volume_source);
+        let known = system.motion_scale(system.b, system.volume_source);
         let (options, mut space) = (&self.0, KrylovSpace::default());
-        let measure = Measure::new(system, options, 0.0);
-        solved(system, u, p, |operator, preconditioner, x| {
-            measure.stages(options, |limits| {
-                limits.size = measure.of(known, x);
+        let residual_scale = ResidualScale::new(system, options, 0.0);
+        solve_with(system, u, p, |operator, preconditioner, x| {
+            residual_scale.solve_rescaled(options, |limits| {
+                limits.scale = residual_scale.of(known, x);
                 fgmres(operator, preconditioner, &rhs, x, *limits, &mut space)
             })
         })
     }
 
-    /// As [`SaddleSolver::solve`] with the speed of a body unknown and the force on it known;
-    /// `system` has it at rest. `speed` holds a guess and takes the solution.
+    /// As [`SaddleSolver::solve`], with the speed of a body as one more unknown and a known force on it. `system` is for the
+    /// body at rest. `speed` is the guess and receives the solution.
     ///
     /// # Errors
     /// As [`SaddleSolver::solve`].
@@ -67,27 +66,27 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         load.check(system)?;
-        let (followed, shares) = load.followed(system);
+        let (relative, shares) = load.relative_to_body(system);
         let mut rhs = system.right_hand_side();
         let last = rhs.len();
         rhs.push(0.0);
-        // The force row weighs as much as the others do with the body moving.
-        let resting = system.measure(system.b, system.volume_source);
+        // The force row gets the weight of the others with the body in motion.
+        let resting = system.motion_scale(system.b, system.volume_source);
         let (options, mut space) = (&self.0, KrylovSpace::default());
-        let measure = Measure::new(system, options, 1.0);
-        solved(system, u, p, |inner, preconditioner, x| {
+        let residual_scale = ResidualScale::new(system, options, 1.0);
+        solve_with(system, u, p, |inner, preconditioner, x| {
             x.push(0.0);
-            measure.stages(options, |limits| {
-                let moving = measure.of(followed.measure(system, *speed), &x[..last]);
-                let weight = moving / followed.scale;
-                (x[last], rhs[last]) = (*speed / weight, weight * followed.force);
-                limits.size = resting.hypot(moving);
+            residual_scale.solve_rescaled(options, |limits| {
+                let moving = residual_scale.of(relative.motion_scale(system, *speed), &x[..last]);
+                let weight = moving / relative.scale;
+                (x[last], rhs[last]) = (*speed / weight, weight * relative.force);
+                limits.scale = resting.hypot(moving);
                 let mut operator = LoadedOperator {
                     inner,
-                    load: &followed,
+                    load: &relative,
                     weight,
                 };
-                let mut bordered = Bordered::new(preconditioner, &followed, weight);
+                let mut bordered = Bordered::new(preconditioner, &relative, weight);
                 add_scaled(&mut x[..shares.len()], -*speed, &shares);
                 let result = fgmres(&mut operator, &mut bordered, &rhs, x, *limits, &mut space);
                 *speed = weight * x[last];
@@ -98,9 +97,8 @@ impl SaddleSolver {
     }
 }
 
-/// Solves `system` by `iterate`, which takes velocities and pressures in one vector from a guess to the solution and yields
-/// the residuals.
-fn solved(
+/// Solves `system` by `iterate`, which improves velocities and pressures in one vector and returns the residuals.
+fn solve_with(
     system: &SaddleSystem,
     u: &mut [f64],
     p: &mut [f64],
@@ -112,7 +110,7 @@ fn solved(
     + Send,
 ) -> Result<SaddleReport, SolveError> {
     let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-    // On the thread pool throughout: its threads need not be woken for every product.
+    // The whole solve runs on the thread pool, so that its threads are not woken for every product.
     let report = rayon::scope(|_| {
         let g_transposed = system.g.transpose();
         let mut operator = SaddleOperator {
@@ -129,7 +127,7 @@ fn solved(
     let (faces, cells) = (u.len(), p.len());
     u.copy_from_slice(&x[..faces]);
     p.copy_from_slice(&x[faces..faces + cells]);
-    report.map_err(|error| explained(error, system))
+    report.map_err(|error| with_cause(error, system))
 }
 
 struct SaddleOperator<'a> {

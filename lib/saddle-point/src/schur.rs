@@ -10,12 +10,12 @@ use crate::vector::{Real, Work, for_each};
 /// `2 eta` times the response `sum g^2/A_ff` of a full cell's faces: six of area one, with `A_ff = 8 eta`.
 const FULL_CELL: f64 = 1.5;
 
-/// `S^-1 ~ E + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, `E = 2 eta`, and less where a
-/// cell's fluxes answer more than those of a full cell; and the part of inertia and lumen friction `D_B` by a multigrid cycle (after Cahouet & Chabard 1988, Int. J.
-/// Numer. Meth. Fluids 8, 869-895, with Darcy friction joined to inertia).
+/// `S^-1 ~ E + (G D_B^-1 G^T + C)^-1`, after Cahouet & Chabard (1988, Int. J. Numer. Meth. Fluids 8, 869-895), with Darcy
+/// friction joined to inertia. The viscous part is the local viscosity, `E = 2 eta`, or less in cells whose fluxes respond
+/// more than those of a full cell. The part of inertia and lumen friction `D_B` is one multigrid cycle.
 pub(crate) struct Schur {
     amg: Amg,
-    /// The pockets whose means it leaves alone.
+    /// Sealed pockets, whose mean pressures are not changed here.
     pub(crate) sealed: Sealed,
     viscous: Vec<Work>,
     friction_part: Vec<Work>,
@@ -24,10 +24,10 @@ pub(crate) struct Schur {
 impl Schur {
     pub(crate) fn new(system: &SaddleSystem, g_transposed: &Csr<f64>) -> Result<Self, SolveError> {
         let weight: Vec<f64> = system.friction.iter().map(|d| 1.0 / d).collect();
-        let matrix = operator(system.g, g_transposed, &weight, system.c)?;
+        let matrix = friction_poisson(system.g, g_transposed, &weight, system.c)?;
         let matrix = match system.pockets {
             0 => matrix,
-            _ => tamed(&matrix)?,
+            _ => with_positive_couplings_lumped(&matrix)?,
         };
         Ok(Self {
             amg: Amg::new(&matrix)?,
@@ -37,7 +37,7 @@ impl Schur {
         })
     }
 
-    /// `p = -S^-1 r` but for the means over sealed pockets, which `r` loses.
+    /// `p = -S^-1 r` without the means over sealed pockets, which are removed from `r`.
     pub(crate) fn apply_negative(&mut self, r: &mut [Work], p: &mut [Work]) {
         let pockets = &self.sealed.pockets;
         pockets.remove_mean(r);
@@ -48,10 +48,9 @@ impl Schur {
     }
 }
 
-/// A matrix whose couplings are positive in part, as are those of a pocket of air and of cells that it shares
-/// faces with, with these taken to the diagonals: smoothing is bounded where none is positive, and what
-/// this adds is no less than zero.
-fn tamed(matrix: &Csr<f64>) -> Result<Csr<f64>, SolveError> {
+/// `matrix` with its positive couplings lumped on the diagonal. A pocket of air and cells that share faces with it have
+/// such couplings, but the smoother is bounded only for non-positive ones. The change is positive semi-definite.
+fn with_positive_couplings_lumped(matrix: &Csr<f64>) -> Result<Csr<f64>, SolveError> {
     let n = matrix.n_rows();
     Csr::assemble(n, n, |row, entries| {
         let (columns, values) = matrix.row(row);
@@ -70,7 +69,7 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
         let response: f64 = (faces.iter().zip(areas))
             .map(|(&face, area)| area * area / diagonal[face as usize])
             .sum();
-        // What has no face responds to nothing, and the sum over nothing is -0.
+        // Without faces the response is -0, the empty sum.
         let full = if response > 0.0 {
             FULL_CELL / response
         } else {
@@ -80,7 +79,7 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
         if cell < system.cells() {
             return Work::nearest(viscous);
         }
-        // A pocket's gas yields more than the liquid around: what the friction part lacks of 1/S.
+        // The gas of a pocket is softer than the liquid around it: take what the friction part lacks of 1/S.
         let friction: f64 = (faces.iter().zip(areas))
             .map(|(&face, area)| area * area / system.friction[face as usize])
             .sum();
@@ -92,7 +91,7 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
 }
 
 /// `G W G^T + C`.
-fn operator(
+fn friction_poisson(
     g: &Csr<f64>,
     g_transposed: &Csr<f64>,
     weight: &[f64],

@@ -1,26 +1,27 @@
-//! Mean pressures of liquid that is sealed off, which the multigrid cycle cannot tell.
+//! Mean pressures of sealed liquid, which the multigrid cycle cannot resolve.
 
 use crate::csr::Csr;
 use crate::pockets::{ClosedPockets, sum_and_diagonal};
 
-/// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision; by 2e-9 presses with
-/// air were not solved.
+/// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision. At 2e-9 presses
+/// with air were not solved.
 const SEALED: f64 = 1e-6;
 /// Row sums below this fraction are rounding in double precision.
 const ROUNDING: f64 = 1e-13;
-/// Part of what a body displaces in a pocket below which the whole is rounding: it carries the pocket along.
+/// Net displaced volume in a pocket, over the sum of its absolute values, below which it is rounding: the body carries the
+/// pocket along.
 const CARRIED: f64 = 1e-6;
 
-/// Liquid that is closed off or nearly, and what it resists with. Next to no flow changes the volume of one: its mean
-/// residual is of mean pressure and bodies alone, `-C p + s V`, with what leaks counted to C.
+/// Pockets of liquid that are sealed, or nearly, and their stiffness. Almost no flow changes their volume, so their mean
+/// residual depends on mean pressure and bodies only: `-C p + s V`, with leaks counted to C.
 pub(crate) struct Sealed {
     pub(crate) pockets: ClosedPockets,
-    /// Mean of `1/C`; none where that is zero.
+    /// Number of cells over the sum of `C`, for each pocket; 0 if that sum is zero.
     stiffness: Vec<f64>,
 }
 
 impl Sealed {
-    /// Those of the Poisson operator `matrix`, of the compressibility `c`.
+    /// The sealed pockets of the Poisson operator `matrix` with compressibilities `c`.
     pub(crate) fn find(matrix: &Csr<f64>, c: &[f64]) -> Self {
         let sums = |pocket: &[u32]| {
             (pocket.iter()).fold((0.0, 0.0), |(leak, whole), &row| {
@@ -47,20 +48,25 @@ impl Sealed {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no sealed pockets.
     pub(crate) fn is_empty(&self) -> bool {
         self.stiffness.is_empty()
     }
 
-    /// Adds the means that follow from the volumes `r` to the pressures `p`.
-    pub(crate) fn begin(&self, r: &[f64], p: &mut [f64]) {
+    /// Adds the mean pressures that follow from the volume residuals `r` to the pressures `p`.
+    pub(crate) fn add_mean_pressures(&self, r: &[f64], p: &mut [f64]) {
         self.add(&self.pockets.means(r), &self.stiffness, p);
     }
 
-    /// The same of mean volumes `r` where a body displaces nothing.
-    pub(crate) fn begin_others(&self, held: &Held, r: &[f64], p: &mut [f64]) {
-        let stiffness: Vec<f64> = (self.stiffness.iter().zip(&held.0))
-            .map(|(stiffness, held)| if held.moved == 0.0 { *stiffness } else { 0.0 })
+    /// The same from the mean residuals `r`, in pockets in which the body displaces nothing.
+    pub(crate) fn add_means_of_undisplaced(
+        &self,
+        response: &PocketResponse,
+        r: &[f64],
+        p: &mut [f64],
+    ) {
+        let stiffness: Vec<f64> = (self.stiffness.iter().zip(&response.0))
+            .map(|(stiffness, pocket)| if pocket.moved == 0.0 { *stiffness } else { 0.0 })
             .collect();
         self.add(r, &stiffness, p);
     }
@@ -70,8 +76,8 @@ impl Sealed {
         self.pockets.subtract(&means, p);
     }
 
-    /// What a body meets that displaces `column` in each cell at unit speed.
-    pub(crate) fn hold(&self, column: &[f64]) -> Held {
+    /// The pockets' response to a body that displaces the volumes `column` at unit speed.
+    pub(crate) fn response_to(&self, column: &[f64]) -> PocketResponse {
         let parts: Vec<f64> = column.iter().map(|moved| moved.abs()).collect();
         let moved = (self.pockets.means(column).into_iter()).zip(self.pockets.means(&parts));
         let moved = moved.map(|(moved, parts)| match moved.abs() > CARRIED * parts {
@@ -79,12 +85,12 @@ impl Sealed {
             false => 0.0,
         });
         let pockets = (self.pockets.members.iter()).zip(&self.stiffness);
-        Held(
+        PocketResponse(
             (moved.zip(pockets))
-                .map(|(moved, (pocket, stiffness))| HeldPocket {
+                .map(|(moved, (pocket, stiffness))| DisplacedPocket {
                     moved,
-                    whole: moved * pocket.len() as f64,
-                    // Others stay as they began.
+                    total: moved * pocket.len() as f64,
+                    // Other pockets are not affected.
                     stiffness: if moved == 0.0 { 0.0 } else { *stiffness },
                 })
                 .collect(),
@@ -92,32 +98,33 @@ impl Sealed {
     }
 }
 
-/// Sealed pockets and a body that displaces liquid in them.
-pub(crate) struct Held(Vec<HeldPocket>);
+/// Response of sealed pockets to a body that displaces liquid in them.
+pub(crate) struct PocketResponse(Vec<DisplacedPocket>);
 
-struct HeldPocket {
-    /// Mean over the pocket of what the body displaces in it at unit speed, and the whole.
+struct DisplacedPocket {
+    /// Mean and sum over the pocket of the volumes that the body displaces at unit speed.
     moved: f64,
-    whole: f64,
+    total: f64,
     stiffness: f64,
 }
 
-impl Held {
-    /// Force on the body by its unit speed.
+impl PocketResponse {
+    /// Force on the body at unit speed.
     pub(crate) fn resistance(&self) -> f64 {
-        let of = |held: &HeldPocket| held.whole * held.moved * held.stiffness;
+        let of = |pocket: &DisplacedPocket| pocket.total * pocket.moved * pocket.stiffness;
         self.0.iter().map(of).sum()
     }
 
-    /// Force on the body, at rest, by the mean volumes `r`.
-    pub(crate) fn push(&self, r: &[f64]) -> f64 {
-        let of = |(held, r): (&HeldPocket, &f64)| -held.whole * r * held.stiffness;
+    /// Force on the body at rest due to the mean residuals `r`.
+    pub(crate) fn force_at_rest(&self, r: &[f64]) -> f64 {
+        let of = |(pocket, r): (&DisplacedPocket, &f64)| -pocket.total * r * pocket.stiffness;
         self.0.iter().zip(r).map(of).sum()
     }
 
-    /// Mean pressures, taken negative, by the mean volumes `r` and the body's speed.
-    pub(crate) fn suction(&self, r: &[f64], speed: f64) -> Vec<f64> {
-        let of = |(held, r): (&HeldPocket, &f64)| (r - held.moved * speed) * held.stiffness;
+    /// Negative mean pressures due to the mean residuals `r` and the body's speed.
+    pub(crate) fn negative_pressures(&self, r: &[f64], speed: f64) -> Vec<f64> {
+        let of =
+            |(pocket, r): (&DisplacedPocket, &f64)| (r - pocket.moved * speed) * pocket.stiffness;
         self.0.iter().zip(r).map(of).collect()
     }
 }
@@ -126,7 +133,7 @@ impl Held {
 mod tests {
     use super::*;
 
-    /// Two cells whose rows leak a part of their diagonals.
+    /// Two cells whose row sums are the fraction `leak` of their diagonals.
     fn sealed(leak: f64) -> Sealed {
         let matrix = Csr::assemble(2, 2, |row, entries| {
             entries.add(row, 1.0);
@@ -145,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_pocket_that_a_body_carries_along_does_not_hold_it() {
-        let resistance = |moved: [f64; 2]| sealed(0.0).hold(&moved).resistance();
+        let resistance = |moved: [f64; 2]| sealed(0.0).response_to(&moved).resistance();
         assert_eq!(resistance([0.1, 1e-9 - 0.1]), 0.0);
         let whole: f64 = 0.1 - 0.0999;
         assert!((resistance([0.1, -0.0999]) * 4e-17 / whole.powi(2) - 1.0).abs() < 1e-9);

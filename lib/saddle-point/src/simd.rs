@@ -1,10 +1,10 @@
 //! Runs a kernel with AVX2 where the processor has it, to the same bits.
 #![allow(unsafe_code)]
 
-/// Work that is compiled twice: for the baseline processor and for one with AVX2. Both round every
-/// product and sum alike, since nothing is contracted, so results are those of any processor.
+/// Work that is compiled twice, with and without AVX2. Both versions round every product and sum alike, since none are
+/// fused, so results do not depend on the processor.
 pub(crate) trait Kernel {
-    /// What it yields.
+    /// Result.
     type Output;
     /// Does the work; everything in it must be `#[inline(always)]`.
     fn run(self) -> Self::Output;

@@ -1,11 +1,11 @@
-//! The saddle-point system, and what is refused of one.
+//! The saddle-point system and its checks.
 
 use crate::csr::Csr;
 use crate::vector::norm;
 use crate::velocity_block::VelocityBlock;
 use crate::{SolveError, check_length};
 
-/// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
+/// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and the data of its preconditioner.
 ///
 /// All values are scaled alike, momentum rows by `1/eta_0` with lengths in cells and the pressure
 /// by `h/eta_0`, so that `A` and `G` have entries of order one.
@@ -16,7 +16,7 @@ pub struct SaddleSystem<'a> {
     pub a: &'a VelocityBlock,
     /// Flux operator, cells x faces.
     pub g: &'a Csr<f64>,
-    /// How many rows of it, the last, are no cells but pockets of gas: one pressure and any number of faces.
+    /// Number of the last rows of `g` that are pockets of gas, not cells: one pressure and any number of faces.
     pub pockets: usize,
     /// Compressibility of every cell, not negative.
     pub c: &'a [f64],
@@ -29,23 +29,25 @@ pub struct SaddleSystem<'a> {
     pub two_eta: &'a [f64],
     /// Momentum right-hand side `b`, one per face.
     pub b: &'a [f64],
-    /// Part of it by which weight, air and menisci push, which pressures of the liquid balance but for little; empty where
-    /// there is none. The tolerance is not measured by it, but by the forces `A u` of the flow that comes of it.
+    /// Standing forces: the part of `b` due to weight, air and menisci, which pressures of the liquid nearly balance; empty if
+    /// there are none. The tolerance is not relative to them but to the forces `A u` of the resulting flow.
     pub standing: &'a [f64],
-    /// Part of these that walls only drag thick liquid along with, which is no force of a flow either; empty where they drag none.
+    /// Part of `standing` with which walls only drag thick liquid along, which is no force of the flow either; empty if there
+    /// is none.
     pub clinging: &'a [f64],
-    /// Velocity at faces to air that counts at least: slower flow is as good as none, a millionth of it anywhere is none.
+    /// Least velocity that matters at faces to air: errors of slower flow do not count there, and a millionth of it counts as
+    /// rest anywhere.
     pub slow: f64,
-    /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
+    /// Volume displaced by walls, one per cell; `G u + C p = g` is this and `carried`.
     pub volume_source: &'a [f64],
-    /// Volume that compression carries over from before, `C p` of then, one per cell. No flow follows from
-    /// most of it, so that the tolerance is not measured by it.
+    /// Volume carried over from the step before by compression, `C p` of then, one per cell. Most of it causes no flow, so the
+    /// tolerance is not relative to it.
     pub carried: &'a [f64],
 }
 
-/// Part of the whole right-hand side that the tolerance is measured by where next to nothing moves; by the whole the two sides
-/// of a press part by 2 % as its adhesive sets.
-const FAINT: f64 = 1e-3;
+/// Least scale of the tolerance, as a fraction of the whole right-hand side, for almost no motion. With the whole of it, the
+/// pressures on the two sides of a press differ by 2 % as its adhesive sets.
+const LEAST_SCALE: f64 = 1e-3;
 
 impl SaddleSystem<'_> {
     /// Number of rows of the flux operator that are cells.
@@ -60,18 +62,18 @@ impl SaddleSystem<'_> {
         self.b.iter().copied().chain(sources).collect()
     }
 
-    /// What the tolerance is relative to: the norm of what moves the liquid, of the momenta `b` and displaced volumes
-    /// `moved` given, or [`FAINT`] of all.
-    pub(crate) fn measure(&self, b: &[f64], moved: &[f64]) -> f64 {
+    /// The scale of the tolerance: the norm of what moves the liquid, i.e. of the momenta `b` and the displaced volumes `moved`;
+    /// at least the fraction [`LEAST_SCALE`] of the whole right-hand side.
+    pub(crate) fn motion_scale(&self, b: &[f64], moved: &[f64]) -> f64 {
         let motion = self.norm_of_volumes(moved).hypot(match self.standing {
             [] => norm(b),
-            standing => apart(b, standing),
+            standing => norm_of_difference(b, standing),
         });
-        motion.max(FAINT * motion.hypot(norm(self.carried)))
+        motion.max(LEAST_SCALE * motion.hypot(norm(self.carried)))
     }
 
-    /// Norm of volumes, one per cell and pocket. That of a pocket counts as faces of its front that share it alike would: whole, what
-    /// a wide front passes would outweigh all that moves the liquid.
+    /// Norm of volumes, one per cell and pocket. The volume of a pocket counts as if shared equally by the faces of its front: as
+    /// one value, that of a wide front would outweigh all else.
     fn norm_of_volumes(&self, volumes: &[f64]) -> f64 {
         let (cells, pockets) = volumes.split_at(self.cells());
         let shared =
@@ -80,7 +82,7 @@ impl SaddleSystem<'_> {
         norm(cells).hypot(shared.sqrt())
     }
 
-    /// Norm of the forces of slow flow through the faces to air, by the friction of each.
+    /// Norm of the forces of slow flow through the faces to air; the areas of inner faces cancel.
     pub(crate) fn slow_forces(&self) -> f64 {
         let mut forces = vec![0.0; self.a.n_rows()];
         for cell in 0..self.cells() {
@@ -95,21 +97,21 @@ impl SaddleSystem<'_> {
         norm(&forces)
     }
 
-    /// Force of slow flow at a face by its friction, at most by that of a cell of liquid of viscosity `eta_0`: thicker liquid
-    /// would outweigh the rest.
+    /// Friction force of slow flow at a face. The friction is capped at that of a cell of liquid with viscosity `eta_0`, else
+    /// thicker liquid would outweigh the rest.
     pub(crate) fn slow_force(&self, face: usize) -> f64 {
         self.slow * self.friction[face].min(1.0)
     }
 
-    /// Norm of what moves the liquid and of what stands, but for what only drags it along.
+    /// Norm of `b` without the drag of `clinging`.
     pub(crate) fn known_forces(&self) -> f64 {
         match self.clinging {
             [] => norm(self.b),
-            clinging => apart(self.b, clinging),
+            clinging => norm_of_difference(self.b, clinging),
         }
     }
 
-    /// Norm of the forces of a flow `u`.
+    /// Norm of the forces of a flow `u`, without the drag of `clinging`.
     pub(crate) fn forces(&self, u: &[f64]) -> f64 {
         let mut forces = vec![0.0; u.len()];
         self.a.multiply(u, &mut forces);
@@ -119,7 +121,7 @@ impl SaddleSystem<'_> {
         norm(&forces)
     }
 
-    /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.
+    /// Refuses wrong lengths, those of the guess included, and values out of range.
     pub(crate) fn check(&self, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
         let (faces, cells) = (self.a.n_rows(), self.g.n_rows());
         let or_none = |forces: &[f64]| if forces.is_empty() { 0 } else { faces };
@@ -173,7 +175,7 @@ impl SaddleSystem<'_> {
 
 #[cfg(test)]
 impl<'a> SaddleSystem<'a> {
-    /// Of friction and viscosity of `ones`, as many as there are faces, and `zeros` else.
+    /// A system with `ones`, one per face, as friction and viscosity, and `zeros` elsewhere.
     pub(crate) fn still(
         a: &'a VelocityBlock,
         g: &'a Csr<f64>,
@@ -199,7 +201,7 @@ impl<'a> SaddleSystem<'a> {
 }
 
 /// Norm of a difference.
-fn apart(a: &[f64], b: &[f64]) -> f64 {
+fn norm_of_difference(a: &[f64], b: &[f64]) -> f64 {
     let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
     square.sqrt()
 }

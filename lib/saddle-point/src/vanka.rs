@@ -1,4 +1,4 @@
-//! Local coupling of velocity and pressure: every cell's momentum and volume balance at once.
+//! Vanka sweep: solves the momentum and volume balance of every cell at once.
 
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
@@ -8,23 +8,22 @@ use crate::simd::{Kernel, dispatch};
 use crate::system::SaddleSystem;
 use crate::vector::{CHUNK, Real, Work, for_each};
 
-/// Faces of a cell that are solved for with its pressure; further ones keep their velocity.
+/// Most faces of a cell that are solved for with its pressure; further ones keep their velocity.
 const FACES: usize = 6;
-/// Part of the corrections that is taken: 0.4 to 0.6 do alike, 0.8 takes 85 % more iterations, and with the whole the sweep
+/// Damping of the corrections. Factors from 0.4 to 0.6 perform alike, 0.8 takes 85 % more iterations, and with 1 the sweep
 /// diverges.
 const DAMPING: Work = 0.6;
 
 /// Entries of a symmetric matrix over the faces of a cell.
 const ENTRIES: usize = FACES * (FACES + 1) / 2;
 
-/// One additive sweep over the cells, after Vanka (1986, J. Comput. Phys. 65, 138-158): for each
-/// the velocities of its faces and its pressure solve `[A, -g^T; -g, -c]` exactly for the
-/// residual, with A restricted to the faces, and a face takes the mean of what its cells say.
-/// Velocities are scaled by `D^-1/2` as in [`Chebyshev`](crate::chebyshev::Chebyshev).
+/// One additive sweep over the cells, after Vanka (1986, J. Comput. Phys. 65, 138-158). For each cell, the velocities of its
+/// faces and its pressure solve `[A, -g^T; -g, -c]` exactly for the residual, with A restricted to these faces. A face takes
+/// the mean correction of its two cells. Velocities are scaled by `D^-1/2` as in
+/// [`Chebyshev`](crate::chebyshev::Chebyshev).
 pub(crate) struct Vanka {
     blocks: Vec<Block>,
-    /// Where the corrections of each face are in `corrections` without its brackets; for faces of
-    /// one cell twice the same.
+    /// Indices of the two corrections of each face in the flattened `corrections`; twice the same for a face of one cell.
     places: Vec<[u32; 2]>,
     corrections: Vec<[Lanes<Work>; FACES]>,
 }
@@ -32,20 +31,20 @@ pub(crate) struct Vanka {
 /// The inverses of eight cells' systems.
 #[derive(Clone, Default)]
 struct Block {
-    /// Their faces; unused places hold any, without effect.
+    /// Their faces; the values of unused places have no effect.
     faces: [Lanes<u32>; FACES],
     /// Inverse of the velocity block, lower triangle by rows.
     inverse: [Lanes<Work>; ENTRIES],
-    /// That times the fluxes.
+    /// `inverse` times the fluxes.
     response: [Lanes<Work>; FACES],
-    /// 1 over compressibility and response of the fluxes together.
+    /// 1 / (compressibility + response of the fluxes).
     softness: Lanes<Work>,
 }
 
 impl Vanka {
-    /// Of a system with its velocities scaled by `scale`.
+    /// Computes the inverses for the cells of `system`.
     pub(crate) fn new(system: &SaddleSystem) -> Self {
-        // Pockets are left to the cycle before: no sweep over their surroundings meets their balance.
+        // Pockets are left to the multigrid cycle: a sweep over the cells around them cannot satisfy their balance.
         let n = system.cells();
         let blocks = (0..n.div_ceil(LANES))
             .into_par_iter()
@@ -75,7 +74,7 @@ impl Vanka {
         }
     }
 
-    /// Corrects scaled velocities and pressures by their residuals; `scale` takes velocities back.
+    /// Corrects velocities and pressures by the residuals of momentum (scaled) and volume.
     pub(crate) fn sweep(
         &mut self,
         (momentum, volume): (&[Work], &[Work]),
@@ -107,7 +106,7 @@ impl Vanka {
     }
 }
 
-/// The solutions of one chunk of cells.
+/// The corrections of one chunk of cells.
 struct Solves<'a> {
     blocks: &'a [Block],
     momentum: &'a [Work],
@@ -198,7 +197,7 @@ impl Block {
     }
 }
 
-/// Where row `i`, column `j` of a symmetric matrix is.
+/// Index of row `i`, column `j` in the triangle of a symmetric matrix.
 #[inline(always)]
 fn entry(i: usize, j: usize) -> usize {
     let (row, column) = (i.max(j), i.min(j));
@@ -210,7 +209,7 @@ mod tests {
     use super::*;
     use crate::{Csr, VelocityBlock};
 
-    /// One cell of three faces, solved alone: the sweep takes [`DAMPING`] of its solution.
+    /// A single cell with three faces: the sweep takes the fraction [`DAMPING`] of its exact solution.
     #[test]
     fn a_sweep_takes_its_part_of_what_one_cell_lacks() {
         let rows = [[4.0, -1.0, 0.5], [-1.0, 4.0, -1.0], [0.5, -1.0, 9.0]];
@@ -228,7 +227,7 @@ mod tests {
             ..SaddleSystem::still(&a, &g, &[1.0; 3], &[0.0; 3])
         };
         let scale = [0.5, 0.5, 1.0 / 3.0];
-        // What [A, -G^T; -G, -C] makes of this solution, the momentum scaled.
+        // [A, -G^T; -G, -C] times this solution, with the momentum scaled.
         let (u, p) = ([1.0, -2.0, 3.0], 4.0);
         let mut momentum = [0.0; 3];
         a.multiply(&u, &mut momentum);
@@ -243,7 +242,7 @@ mod tests {
         }
     }
 
-    /// Faces of two cells take the mean of what both say.
+    /// A face between two cells takes the mean of their corrections.
     #[test]
     fn a_face_of_two_cells_takes_their_mean() {
         let a = VelocityBlock::assemble(3, |i, row| row.add(i, 2.0)).unwrap();
@@ -254,7 +253,7 @@ mod tests {
         let g = g.unwrap();
         let system = SaddleSystem::still(&a, &g, &[1.0; 3], &[0.0; 3]);
         let (mut v, mut q) = ([0.0; 3], [0.0; 2]);
-        // The first cell swells by one: half through each of its faces.
+        // The first cell expands by one, half through each of its faces.
         let scale = [0.5f32.sqrt(); 3];
         Vanka::new(&system).sweep((&[0.0; 3], &[-1.0, 0.0]), &scale, &mut v, &mut q);
         let near = |x: Work, y: Work| (x - y).abs() < 1e-6;

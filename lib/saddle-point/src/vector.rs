@@ -85,8 +85,8 @@ impl<X: Real, Y: Real> Kernel for Dot<'_, X, Y> {
     }
 }
 
-/// Scalar products of several vectors with `y` within one chunk, each in double precision over eight
-/// lanes: as many sums as do not wait for one another.
+/// Scalar products of several vectors with `y` within one chunk, each in double precision over eight lanes. Several at
+/// once hide the latency of the sums.
 #[inline(always)]
 pub(crate) fn dot_each<const N: usize, X: Real, Y: Real>(x: [&[X]; N], y: &[Y]) -> [f64; N] {
     let mut lanes = [[0.0f64; 8]; N];
@@ -132,7 +132,7 @@ pub(crate) fn add_scaled<Y: Real, X: Real>(y: &mut [Y], alpha: f64, x: &[X]) {
     });
 }
 
-/// Gives `v` the length `len` without memory to spare: systems grow by little from step to step.
+/// Resizes `v` to `len` without spare memory: systems grow little from step to step.
 pub(crate) fn fit<T: Real>(v: &mut Vec<T>, len: usize) {
     v.truncate(len);
     v.reserve_exact(len - v.len());

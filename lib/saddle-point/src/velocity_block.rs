@@ -1,12 +1,12 @@
-//! The velocity block of a saddle-point system, as the solver keeps it.
+//! The velocity block of a saddle-point system, in the compact form of the solver.
 
 use crate::SolveError;
 use crate::csr::{RowEntries, assemble_chunks, value_at};
 use crate::packed::PackedMatrix;
 use crate::vector::{CHUNK, Real, Work, for_each};
 
-/// A symmetric positive definite matrix `A` with diagonal `D`, kept as `S A S` with `S = D^-1/2`, each entry to 1e-14 of
-/// the root of the two diagonals that it couples, in two thirds of the memory of its rows.
+/// A symmetric positive definite matrix `A` with diagonal `D`, stored as `S A S` with `S = D^-1/2`. Entries are accurate to
+/// 1e-14 of the root of the two diagonals that they couple, and take two thirds of the memory of plain rows.
 pub struct VelocityBlock {
     pub(crate) matrix: PackedMatrix,
     /// `D^-1/2`.
@@ -19,7 +19,8 @@ impl VelocityBlock {
     /// Assembles `n` rows as [`Csr::assemble`](crate::Csr::assemble) does.
     ///
     /// # Errors
-    /// As there; and [`SolveError::Matrix`] for a diagonal that is not positive or an entry above it.
+    /// As [`Csr::assemble`](crate::Csr::assemble); and [`SolveError::Matrix`] for a diagonal that is not positive, or an entry
+    /// larger than the diagonals allow.
     pub fn assemble(
         n: usize,
         fill: impl Fn(usize, &mut RowEntries) + Sync,
@@ -60,7 +61,7 @@ impl VelocityBlock {
         self.multiply_by(x, &mut Vec::new(), out);
     }
 
-    /// The same; `scratch` takes the scaled `x`.
+    /// `out = A x`; `scratch` receives the scaled `x`.
     pub(crate) fn multiply_by<X: Real>(&self, x: &[X], scratch: &mut Vec<f64>, out: &mut [f64]) {
         let root = &self.root[..];
         scratch.resize(self.matrix.padded_len(), 0.0);
@@ -78,7 +79,7 @@ mod tests {
     use super::*;
     use crate::Csr;
 
-    /// A chain whose diagonal spans six orders: products to the unit of the fixed-point numbers.
+    /// A chain whose diagonal spans six orders of magnitude; products are accurate to the unit of the fixed-point numbers.
     #[test]
     fn products_are_those_of_the_matrix() {
         let n = 1000;

@@ -1,6 +1,6 @@
 //! Uses of a forged particle file: read, measured, built into a bond, pressed.
 
-use bondline::{Opening, Placed, Specimen};
+use bondline::{Opening, PlacedVoxels, Specimen};
 use metrics::{Datum, Map, Reference, ShearRates, Side, State};
 use particle_file::{Kind, ParticleFile};
 use units::Axis;
@@ -64,7 +64,7 @@ fn measure(file: &ParticleFile) {
 }
 
 fn build(file: &ParticleFile) {
-    let block = |name| file.block_named(name).ok().map(Placed::of_block);
+    let block = |name| file.block_named(name).ok().map(PlacedVoxels::of_block);
     let Some((wood, adhesive)) = block("wood").zip(block("adhesive")) else {
         return;
     };

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
-use bondline::{Opening, Placed, Specimen};
+use bondline::{Opening, PlacedVoxels, Specimen};
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
 use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, colortype};
 use units::Axis;
@@ -72,7 +72,7 @@ pub(crate) fn bond() -> Vec<u8> {
     let parts = parts();
     let [wood, adhesive] = parts
         .each_ref()
-        .map(|bits| Placed::at_origin(bits.view(), VOXEL));
+        .map(|bits| PlacedVoxels::at_origin(bits.view(), VOXEL));
     let opening = Opening {
         normal: Axis::Y,
         voxels_per_cell: 2,

@@ -7,7 +7,7 @@ mod report;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use bondline::{Bond, Error, Layup, Opening, Pieces, Placed, Specimen};
+use bondline::{Bond, Error, Layup, Opening, Pieces, PlacedVoxels, Specimen};
 use cli::Failure;
 use particle_file::{Header, Kind, ParticleFile, Provenance};
 use units::Axis;
@@ -81,9 +81,9 @@ fn normal(arguments: &Arguments, files: &[ParticleFile]) -> Result<Axis, Failure
     }
 }
 
-fn placed<'a>(file: &'a ParticleFile, name: &str) -> Result<Placed<'a>, Failure> {
+fn placed<'a>(file: &'a ParticleFile, name: &str) -> Result<PlacedVoxels<'a>, Failure> {
     let block = file.block_named(name).map_err(Failure::data)?;
-    Ok(Placed::of_block(block))
+    Ok(PlacedVoxels::of_block(block))
 }
 
 /// A refusal of the pieces of `files`.

@@ -74,7 +74,7 @@ fn plane(bond: &Bond, normal: Axis) {
         um(bond.plane_m),
         bond.severed,
     ));
-    bondline::doubt(bond.severed, bond.area)
+    bondline::severed_doubt(bond.severed, bond.area)
         .into_iter()
         .for_each(cli::warn);
 }
@@ -101,7 +101,7 @@ pub(crate) fn tilt(specimen: &Specimen, bond: &Bond, normal: Axis) {
     let state = State::of_specimen(specimen, normal);
     let tilt = match Datum::find(Reference::Fit, &state) {
         Err(why) => return cli::warn(why),
-        Ok(plane) => match (plane.unsure(), plane.tilt()) {
+        Ok(plane) => match (plane.fit_doubt(), plane.tilt()) {
             (None, Some(tilt)) => tilt,
             (doubt, _) => return doubt.into_iter().for_each(cli::warn),
         },

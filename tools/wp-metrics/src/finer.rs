@@ -5,7 +5,9 @@ use std::path::Path;
 
 use cli::Failure;
 use metrics::table::PenetrationRows;
-use metrics::{Datum, LEAST_RATIO, State, case_but_cells, cell_error, extrapolated, penetration};
+use metrics::{
+    Datum, LEAST_RATIO, State, case_without_cells, cell_error, extrapolated, penetration,
+};
 use toml::Table;
 
 use crate::arguments::Arguments;
@@ -68,7 +70,7 @@ fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<String> {
     let case = |side: usize| -> Option<Table> {
         let folders = Path::new(states[side]).ancestors().skip(1).take(2);
         let mut texts = folders.map(|folder| fs::read_to_string(folder.join("resolved.toml")));
-        case_but_cells(&texts.find_map(Result::ok)?, cells[side], false)
+        case_without_cells(&texts.find_map(Result::ok)?, cells[side], false)
     };
     let (run, finer) = (case(0)?, case(1)?);
     let mut tables = run.keys().chain(finer.keys());

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
-use bondline::{Placed, Specimen};
+use bondline::{PlacedVoxels, Specimen};
 use cli::{Failure, InputRecord};
 use metrics::{Adhesive, State};
 use particle_file::{BitGrid, Header, Kind, Mapped, ParticleFile, temporary_file};
@@ -69,7 +69,8 @@ impl Input {
             }
             Content::Stack { voxels, edge_m, .. } => {
                 let parts = [&voxels.wood, &voxels.adhesive];
-                let [wood, adhesive] = parts.map(|bits| Placed::at_origin(bits.view(), *edge_m));
+                let [wood, adhesive] =
+                    parts.map(|bits| PlacedVoxels::at_origin(bits.view(), *edge_m));
                 let specimen = Specimen::new(wood, adhesive).map_err(Failure::data)?;
                 Ok(State::of_specimen(&specimen, normal.unwrap_or(Axis::Y)))
             }

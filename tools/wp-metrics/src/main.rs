@@ -66,7 +66,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let left = input.noted("left_through_open_sides").unwrap_or(0.0);
             let line = bond_line(&state, left, &sealed).map_err(fail)?;
             let gap_m = input.noted("gap_m").unwrap_or(f64::NAN);
-            rows.course = Some((input.time_s(), gap_m, line));
+            rows.series = Some((input.time_s(), gap_m, line));
             if arguments.profile.is_some() {
                 let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
                 let profile = depth_profile(&state, &datum, &sealed).map_err(fail)?;
@@ -139,7 +139,11 @@ fn measure(
         adhesive.bits = kept.view();
     }
     let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
-    for doubt in datum.unsure().into_iter().chain(datum.doubt(&state)) {
+    for doubt in datum
+        .fit_doubt()
+        .into_iter()
+        .chain(datum.severed_doubt(&state))
+    {
         cli::warn(format!("'{}': {doubt}", input.name));
     }
     if let Some(output) = &arguments.map {
@@ -160,7 +164,7 @@ fn measure(
         sides: penetration(&state, &datum),
         agreement,
         pressure_pa: None,
-        course: None,
+        series: None,
         cell_error: None,
     })
 }

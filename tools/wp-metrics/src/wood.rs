@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bondline::Placed;
+use bondline::PlacedVoxels;
 use cli::{Failure, Progress};
 use implicit::Permeability;
 use metrics::table::{self, PermeabilityRow};
@@ -87,7 +87,7 @@ pub fn tell_pores(
     (arguments.output).write_with_record(&record.finish(), |out| table::write_pores(out, &files))
 }
 
-fn whole<'a>(input: &Input, state: &State<'a>) -> Result<Placed<'a>, Failure> {
+fn whole<'a>(input: &Input, state: &State<'a>) -> Result<PlacedVoxels<'a>, Failure> {
     match state.wood {
         Wood::Whole(wood) => Ok(wood),
         Wood::Parted { .. } => Err(refused(
@@ -98,7 +98,7 @@ fn whole<'a>(input: &Input, state: &State<'a>) -> Result<Placed<'a>, Failure> {
     }
 }
 
-fn fits(input: &Input, wood: &Placed, bytes_a_voxel: u64, what: &str) -> Result<(), Failure> {
+fn fits(input: &Input, wood: &PlacedVoxels, bytes_a_voxel: u64, what: &str) -> Result<(), Failure> {
     let [x, y, z] = wood.bits.dims();
     let need = bytes_a_voxel.saturating_mul((x * y * z) as u64);
     match machine::shortage(need) {

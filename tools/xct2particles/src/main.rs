@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use arguments::Arguments;
-use bondline::{Placed, Specimen};
+use bondline::{PlacedVoxels, Specimen};
 use cli::{Failure, Output, Progress};
 use figures::{Cut, Page, Position, Slices};
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
@@ -121,7 +121,7 @@ fn level(
     name: &str,
 ) -> Result<(), Failure> {
     let parts = [&segmented.wood, &segmented.adhesive];
-    let [wood, adhesive] = parts.map(|bits| Placed::at_origin(bits.view(), edge.metres));
+    let [wood, adhesive] = parts.map(|bits| PlacedVoxels::at_origin(bits.view(), edge.metres));
     let refused = |why: String| Failure::usage(format!("{name}: --level {normal}: {why}"));
     let specimen = Specimen::new(wood, adhesive).map_err(|why| refused(why.to_string()))?;
     let turned = metrics::level(&specimen, normal).map_err(refused)?;

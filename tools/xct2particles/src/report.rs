@@ -1,6 +1,6 @@
 //! Messages of the tool on standard error.
 
-use metrics::Level;
+use metrics::LevelledSpecimen;
 use units::Axis;
 use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
@@ -77,7 +77,7 @@ pub(crate) fn noise(specimen: &Segmented) {
 }
 
 /// How a specimen was turned.
-pub(crate) fn level(turned: &Level) {
+pub(crate) fn level(turned: &LevelledSpecimen) {
     let [x, y, z] = turned.wood.dims();
     cli::note(format_args!(
         "level       the bond plane was {}; turned back, {x} x {y} x {z} voxels are left",

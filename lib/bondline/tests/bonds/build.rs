@@ -1,13 +1,13 @@
 //! A bond from synthetic specimens whose answer is known, along each axis.
 
-use bondline::{Bond, Error, Opening, Placed, Specimen, build};
+use bondline::{Bond, Error, Opening, PlacedVoxels, Specimen, build};
 use particle_file::BitGrid;
 use units::Axis;
 
 use crate::{VOXEL, near, opening, placed, refused};
 
-/// Layers along the normal: comb-shaped wood up to 20 and from 31, adhesive in the gap and in
-/// the grooves of the bottom comb down to 14, one speck at 38.
+/// Material by layer along the normal: comb-shaped wood below 20 and from 31 on, adhesive in the gap and in the grooves of
+/// the bottom comb down to 14, and a speck at 38.
 fn material(layer: usize, u: usize) -> char {
     let groove = u % 4 == 1;
     match layer {
@@ -47,7 +47,7 @@ impl Stack {
         self.cut(None, opening)
     }
 
-    /// Split so many voxels above its low face.
+    /// Builds the bond with the wood split this many voxels above its low face.
     fn cut(&self, layers: Option<f64>, opening: &Opening) -> Result<Bond, Error> {
         let specimen = Specimen::new(placed(&self.wood), placed(&self.adhesive))?;
         build(&specimen, layers.map(|n| n * VOXEL), opening)
@@ -65,7 +65,7 @@ fn every_axis_gives_the_same_bond() {
         let stack = Stack::new(normal, [80, 12]);
         let bond = stack.build(&opening(normal)).unwrap();
         let n = normal.index();
-        // Midway between the faces at 20 and 31 is 25.5: the face below it.
+        // Midway between the faces at 20 and 31 is 25.5, rounded down to a face.
         assert!(near(bond.plane_m, 25.0 * VOXEL), "{normal}");
         // 11 full layers, 6 layers of a quarter and a speck of 12 voxels: 12.5125 voxels,
         // hence 6 cells.
@@ -73,12 +73,12 @@ fn every_axis_gives_the_same_bond() {
         assert_eq!((bond.slab_cells, bond.adhesive_out), (6, 80 * 12 * 12));
         assert!((bond.rounding() - (12.0 / 12.5125 - 1.0)).abs() < 1e-12);
         assert!(near(bond.gap_m, 12.0 * VOXEL));
-        // The adherends keep every voxel and come back when closed by the gap.
+        // The adherends keep every voxel and return to their place when closed by the gap.
         let (bottom, top) = (bond.bottom.bits.count(), bond.top.bits.count());
         assert_eq!((bottom, bottom + top), (20 * 60 * 12, stack.wood.count()));
         assert!(near(bond.top.origin_m[n] - bond.gap_m, bond.plane_m));
         assert_eq!(bond.top.bits.dims()[n], 25);
-        // Slab between plane and moved adherend, full, on the lattice of the box, from 13 cells below.
+        // The full slab lies between plane and moved adherend, on cell faces of the box, which begins 13 cells below.
         assert!(near(bond.slab.origin_m[n], bond.plane_m));
         assert_eq!(bond.slab.bits.count(), bond.adhesive_out);
         let cells = (bond.slab.origin_m[n] - bond.box_min_m[n]) / bond.cell_m;
@@ -112,10 +112,10 @@ fn a_plane_through_the_wood_severs_it_and_says_so() {
     let bond = at(10.2).unwrap();
     assert!(near(bond.plane_m, 10.0 * VOXEL));
     assert_eq!(bond.severed, 60 * 12);
-    let doubt = bondline::doubt(bond.severed, bond.area).unwrap();
+    let doubt = bondline::severed_doubt(bond.severed, bond.area).unwrap();
     assert!(doubt.contains("75.0 % of the bond area"), "{doubt}");
     let sound = stack.build(&opening(Axis::Y)).unwrap();
-    assert_eq!(bondline::doubt(sound.severed, sound.area), None);
+    assert_eq!(bondline::severed_doubt(sound.severed, sound.area), None);
     let wood = bond.bottom.bits.count() + bond.top.bits.count();
     assert_eq!(wood, stack.wood.count());
     for outside in [50.0, f64::NAN] {
@@ -123,7 +123,7 @@ fn a_plane_through_the_wood_severs_it_and_says_so() {
     }
 }
 
-/// Adhesive covers 34 % of a layer in the grooves, too, and all of one in the gap.
+/// Across the other axis, adhesive covers up to 34 % of a layer more than wood, in the grooves.
 #[test]
 fn a_bond_across_another_axis_is_refused_by_its_name() {
     for across in Axis::ALL {
@@ -187,7 +187,7 @@ fn slabs_and_specimens_that_do_not_fit_are_refused() {
     let (wood, adhesive) = (stack.wood, BitGrid::new([80, 50, 12]));
     Stack { wood, adhesive }.refuses(&opening(Axis::Y), "no adhesive voxel");
     let [a, b] = [BitGrid::new([2, 3, 4]), BitGrid::new([2, 3, 5])];
-    let coarse = Placed {
+    let coarse = PlacedVoxels {
         voxel_m: 1.0,
         ..placed(&a)
     };

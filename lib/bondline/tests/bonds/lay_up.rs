@@ -1,6 +1,6 @@
-//! Bonds of undamaged wood whose answer is counted by hand.
+//! Bonds of undamaged wood, against results counted by hand.
 
-use bondline::{Bond, Error, Layup, Pieces, Placed, lay_up};
+use bondline::{Bond, Error, Layup, Pieces, PlacedVoxels, lay_up};
 use particle_file::BitGrid;
 use units::Axis;
 
@@ -21,7 +21,7 @@ fn two(bottom: &BitGrid, top: &BitGrid, layup: &Layup) -> Result<Bond, Error> {
     lay_up(&Pieces::Two { bottom, top }, layup)
 }
 
-/// Grooved along z, 20 layers, with air above the bottom piece and below the top one.
+/// Pieces of 20 layers with grooves along z, and with air above the bottom piece and below the top one.
 fn grooved(air_above: bool) -> BitGrid {
     BitGrid::from_fn([16, 20, 12], |x, y, _| {
         let inside = if air_above { y < 17 } else { y >= 3 };
@@ -48,7 +48,7 @@ fn two_pieces_lie_apart_by_the_slab_and_close_where_they_touch() {
     assert_eq!(low, high);
 }
 
-/// Ribs of the top piece fit between those of the bottom one: they close by their height.
+/// The ribs of the top piece fit between those of the bottom one, so the pieces close by the height of the ribs.
 #[test]
 fn faces_that_fit_into_one_another_close_further() {
     let ribs = |odd: usize, solid: std::ops::Range<usize>, hollow: std::ops::Range<usize>| {
@@ -58,7 +58,7 @@ fn faces_that_fit_into_one_another_close_further() {
     };
     let (bottom, top) = (ribs(0, 0..7, 2..4), ribs(1, 3..10, 6..8));
     let bond = two(&bottom, &top, &layup()).unwrap();
-    // 10 layers less 3 of ribs: the top piece rests at layer 7, and opens by 3 + 4.
+    // The top piece rests at layer 7, 10 less 3 of ribs; the gap is 3 + 4.
     assert!(near(bond.gap_m, 7.0 * VOXEL));
     assert!(near(bond.slab.origin_m[1], 10.0 * VOXEL));
     assert!(near(bond.top.origin_m[1], 14.0 * VOXEL));
@@ -84,7 +84,7 @@ fn a_cut_piece_keeps_every_voxel_and_comes_back_to_its_place() {
     }
 }
 
-/// The turn is a rotation in place: about y, z goes to x and x to -z.
+/// A turn is a rotation: about y, z goes to x and x to -z.
 #[test]
 fn turning_moves_each_voxel_where_a_right_handed_turn_takes_it() {
     let bottom = BitGrid::from_fn([8, 4, 8], |x, _, _| x % 2 == 0);
@@ -98,7 +98,7 @@ fn turning_moves_each_voxel_where_a_right_handed_turn_takes_it() {
         let bond = two(&bottom, &all_but(1, 2), &layup).unwrap();
         assert_eq!(bond.top.bits, all_but(x, z), "{quarters}");
     }
-    // Four quarters about any axis are none.
+    // Four quarter turns about any axis change nothing.
     for normal in Axis::ALL {
         let top = BitGrid::from_fn([6, 6, 6], |x, y, z| (x + 2 * y + 3 * z) % 5 < 3);
         let bottom = BitGrid::from_fn([6, 6, 6], |x, y, z| (x * y + z) % 3 < 2);
@@ -172,17 +172,17 @@ fn pieces_that_do_not_fit_are_refused() {
     );
     let coarser = Pieces::Two {
         bottom: placed(&bottom),
-        top: Placed {
+        top: PlacedVoxels {
             voxel_m: 1.01 * VOXEL,
             ..placed(&top)
         },
     };
     refused(lay_up(&coarser, &layup()), "scale one stack");
-    // Ribs that pass one another on and on.
+    // Ribs that pass one another without contact.
     let left = BitGrid::from_fn([4, 9, 4], |x, _, _| x < 2);
     let right = BitGrid::from_fn([4, 9, 4], |x, _, _| x >= 2);
     refused(two(&left, &right, &layup()), "nowhere along the normal");
-    // A layer of voxels is a piece like another.
+    // A piece may be a single layer of voxels.
     let sheet = BitGrid::from_fn([16, 1, 12], |x, _, _| x % 4 != 1);
     assert!(two(&sheet, &bottom, &layup()).is_ok());
 }

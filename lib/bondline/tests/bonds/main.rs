@@ -1,9 +1,9 @@
-//! Bonds before pressing whose answer is known.
+//! Bonds before pressing with known results.
 
 mod build;
 mod lay_up;
 
-use bondline::{Bond, Error, Opening, Placed};
+use bondline::{Bond, Error, Opening, PlacedVoxels};
 use particle_file::BitGrid;
 use units::Axis;
 
@@ -18,8 +18,8 @@ fn opening(normal: Axis) -> Opening {
     }
 }
 
-fn placed(grid: &BitGrid) -> Placed<'_> {
-    Placed::at_origin(grid.view(), VOXEL)
+fn placed(grid: &BitGrid) -> PlacedVoxels<'_> {
+    PlacedVoxels::at_origin(grid.view(), VOXEL)
 }
 
 #[track_caller]

@@ -1,4 +1,4 @@
-//! The tables as CSV; the columns are a contract with other people's scripts. Errors are those of `out`.
+//! Output tables as CSV. Other people's scripts rely on the columns. Errors are those of `out`.
 
 mod penetration;
 
@@ -10,7 +10,7 @@ use units::Axis;
 
 use crate::{DepthLayer, Map, PoreSize, ShearRates};
 
-/// Writes the names of the columns, parted by commas, and the rows.
+/// Writes the comma-separated names of the columns, and the rows.
 fn write(
     out: &mut dyn Write,
     header: &str,
@@ -19,7 +19,7 @@ fn write(
     let mut table = csv::Writer::from_writer(out);
     let header = header.split(',').map(str::to_owned).collect();
     for row in [header].into_iter().chain(rows) {
-        // The writer's own error in place of csv's wrapping of it, so that a closed pipe can be told.
+        // Unwrap the error of the writer, so that a closed pipe is recognised.
         table
             .write_record(row)
             .map_err(|error| match error.into_kind() {
@@ -30,7 +30,7 @@ fn write(
     table.flush()
 }
 
-/// Micrometres with six digits behind the point.
+/// Micrometres with six decimals.
 fn um(metres: f64) -> String {
     format!("{:.6}", 1e6 * metres)
 }
@@ -51,7 +51,7 @@ fn seconds(time_s: f64) -> String {
     format!("{time_s:.9e}")
 }
 
-/// A permeability, and what it was found from.
+/// A permeability, with the porosity of the specimen.
 pub struct PermeabilityRow {
     /// The file as the user named it.
     pub file: String,
@@ -59,9 +59,9 @@ pub struct PermeabilityRow {
     pub axis: Axis,
     /// Permeability and its error, m2.
     pub permeability_m2: [f64; 2],
-    /// Share of the volume that is open, and share of that through which liquid flows from side to side.
+    /// Open fraction of the volume.
     pub porosity: f64,
-    /// See `porosity`.
+    /// Fraction of the open volume that is connected from side to side.
     pub through: f64,
 }
 

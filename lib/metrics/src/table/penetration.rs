@@ -9,9 +9,9 @@ use crate::{Agreement, BondLine, CellError, Extrapolated, Penetration, Reference
 pub struct PenetrationRows {
     /// The file as the user named it.
     pub file: String,
-    /// What depths are measured from.
+    /// Reference of the depths.
     pub reference: Reference,
-    /// How the plane that depths are measured from is turned; of a fit.
+    /// Tilt of the reference plane, if fitted.
     pub tilt: Option<Tilt>,
     /// Bottom, top and total.
     pub sides: [Penetration; 3],
@@ -20,8 +20,8 @@ pub struct PenetrationRows {
     /// Pressure on the body that the clamp drives, Pa, when asked for.
     pub pressure_pa: Option<f64>,
     /// Time (s), gap (m; NaN where there is none) and bond line of a state in a series.
-    pub course: Option<(f64, f64, BondLine)>,
-    /// Each side and the pressure carried on to cells of no size, when a finer run was given.
+    pub series: Option<(f64, f64, BondLine)>,
+    /// Sides and pressure extrapolated to zero cell size, if a finer run was given.
     pub cell_error: Option<([CellError; 3], Extrapolated)>,
 }
 
@@ -66,7 +66,7 @@ fn cells(file: &PenetrationRows, side: usize) -> Vec<(&'static str, String)> {
         file.pressure_pa
             .map(|pressure| ("pressure_pa", pascal(pressure))),
     );
-    if let Some((time_s, gap_m, line)) = &file.course {
+    if let Some((time_s, gap_m, line)) = &file.series {
         row.extend([
             ("time_s", seconds(*time_s)),
             ("gap_um", um(*gap_m)),
@@ -107,8 +107,7 @@ fn cells(file: &PenetrationRows, side: usize) -> Vec<(&'static str, String)> {
     row
 }
 
-/// A quantity of the summary: the columns of its mean and standard deviation, its value of a side, and how a number of it is
-/// written.
+/// A quantity of the summary: columns of its mean and standard deviation, its value on a side, and its format.
 type Summed = (&'static str, fn(&Penetration) -> f64, fn(f64) -> String);
 
 const SUMMED: [Summed; 6] = [
@@ -120,8 +119,8 @@ const SUMMED: [Summed; 6] = [
     ("volume_um3,volume_sd_um3", |p| p.volume_m3, um3),
 ];
 
-/// `side,reference,files`, then mean and standard deviation over the files, each of which counts as one, of `wp_um`,
-/// `slab_wp_um`, `ep_um`, `max_depth_um`, `p99_depth_um` and `volume_um3` (`wp_um,wp_sd_um,...`). NaN where a file has NaN.
+/// `side,reference,files`, then mean and standard deviation over the files, with equal weights, of `wp_um`, `slab_wp_um`,
+/// `ep_um`, `max_depth_um`, `p99_depth_um` and `volume_um3` (`wp_um,wp_sd_um,...`). NaN if any file has NaN.
 pub fn write_summary(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Result<()> {
     let columns = SUMMED.map(|(names, ..)| names).join(",");
     let reference = files.first().map_or(Reference::Mid, |file| file.reference);

@@ -1,7 +1,7 @@
 //! Specimens whose penetration is known in closed form.
 #![allow(dead_code)] // each test file uses a part
 
-use bondline::{Placed, Specimen};
+use bondline::{PlacedVoxels, Specimen};
 use metrics::{Adhesive, State, Wood};
 use particle_file::BitGrid;
 use units::Axis;
@@ -14,7 +14,7 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// A stack from a letter for each voxel: `w`, `a` or anything else for void.
+    /// A stack from one letter per voxel: `w` wood, `a` adhesive, else void.
     pub fn new(dims: [usize; 3], letter: impl Fn(usize, usize, usize) -> char + Sync) -> Self {
         Self {
             wood: BitGrid::from_fn(dims, |x, y, z| letter(x, y, z) == 'w'),
@@ -43,16 +43,15 @@ pub fn slab(normal: Axis, t: usize) -> Stack {
     })
 }
 
-pub fn placed(bits: &BitGrid) -> Placed<'_> {
-    Placed {
+pub fn placed(bits: &BitGrid) -> PlacedVoxels<'_> {
+    PlacedVoxels {
         origin_m: [0.0; 3],
         voxel_m: VOXEL,
         bits: bits.view(),
     }
 }
 
-/// A state of a run: the adherends of a stack parted at layer `plane` (along y) with the top
-/// one `gap` away, and points.
+/// A state of a run: points, and the adherends of a stack parted at layer `plane` along y, the top one `gap` away.
 pub struct Run {
     bottom: BitGrid,
     top: BitGrid,
@@ -77,7 +76,7 @@ impl Run {
         }
     }
 
-    /// The same with the adhesive voxels of the stack as points that moved with the adherends.
+    /// The same, with the adhesive voxels of the stack as points that moved with the adherends.
     pub fn of(stack: &Stack, plane: usize, gap: f64) -> Self {
         let mut run = Self::new(stack, plane, gap);
         stack.adhesive.view().for_each(|index| {

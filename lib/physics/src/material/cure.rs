@@ -1,29 +1,28 @@
-//! Cure: how the viscosity changes with time and temperature, whatever the shear rate.
+//! Cure: a factor on the viscosity that depends on time and temperature, not on the shear rate.
 
 use super::neighbours;
 
 /// Gas constant, J/(mol K) (CODATA 2018).
 const GAS: f64 = 8.314_462_618;
-/// Viscosity over that at the start from which the liquid counts as set.
+/// Growth of the viscosity since the start at which the liquid counts as set.
 pub const SET: f64 = 1e6;
-/// Largest change of ln(factor), and of ln(speed of cure), from one knot to the next.
-const BETWEEN: f64 = 0.02;
-/// Part of the gel time before it at which a liquid counts as gelled.
+/// Largest change of ln(factor), and of ln(speed of cure), between knots.
+const MOST_CHANGE: f64 = 0.02;
+/// A liquid counts as gelled this fraction of the gel time before it.
 const GELLED: f64 = 1e-6;
-/// Temperatures of a press, K; others are slips of the pen.
+/// Accepted temperatures of a press, K; others are mistakes.
 const TEMPERATURES: [f64; 2] = [200.0, 700.0];
 
-/// What a case says of the factor of the viscosity.
+/// The law of cure in a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CureLaw {
-    /// What the factor follows at the reference temperature; `None`: temperature alone.
+    /// The factor over time at the reference temperature; `None`: no cure, only temperature.
     pub course: Option<Course>,
-    /// Temperature (K) against time (s), linear between its points and constant outside; none: always
-    /// the reference temperature.
+    /// Temperature (K) against time (s), linear between points and constant outside; empty: always the reference temperature.
     pub temperature: Vec<(f64, f64)>,
-    /// Temperature to which `course` and the law of the shear rate belong, K.
+    /// Temperature for which `course` and the viscosity law hold, K.
     pub reference: f64,
-    /// Activation energy of cure E, J/mol: `course` runs exp(-E/R (1/T - 1/T_ref)) times as fast.
+    /// Activation energy of cure E, J/mol: cure is exp(-E/R (1/T - 1/T_ref)) times as fast.
     pub cure_energy: f64,
     /// Activation energy of flow E, J/mol: the viscosity is exp(E/R (1/T - 1/T_ref)) times as large.
     pub flow_energy: f64,
@@ -44,33 +43,33 @@ pub enum Course {
 }
 
 impl CureLaw {
-    /// ln(factor) by the course after the time `age` (s) at the reference temperature.
-    fn cured(&self, age: f64) -> f64 {
+    /// ln(factor) of the course at `age`, the equivalent time (s) at the reference temperature.
+    fn ln_cured(&self, age: f64) -> f64 {
         match &self.course {
             None => 0.0,
-            Some(Course::Table(points)) => between(points, age, f64::ln),
+            Some(Course::Table(points)) => interpolated(points, age, f64::ln),
             Some(Course::Gel { time, exponent }) => -exponent * (1.0 - age / time).max(0.0).ln(),
         }
     }
 
     /// 1/(R T) - 1/(R T_ref) at a time (s), mol/J.
-    fn cold(&self, time: f64) -> f64 {
+    fn inverse_difference(&self, time: f64) -> f64 {
         if self.temperature.is_empty() {
             return 0.0;
         }
-        (1.0 / between(&self.temperature, time, |t| t) - 1.0 / self.reference) / GAS
+        (1.0 / interpolated(&self.temperature, time, |t| t) - 1.0 / self.reference) / GAS
     }
 
-    /// ln of how much faster the cure is than at the reference temperature.
-    fn haste(&self, time: f64) -> f64 {
-        -self.cure_energy * self.cold(time)
+    /// ln of the speed of cure over that at the reference temperature.
+    fn ln_speed(&self, time: f64) -> f64 {
+        -self.cure_energy * self.inverse_difference(time)
     }
 
-    fn factor(&self, time: f64, age: f64) -> f64 {
-        self.cured(age) + self.flow_energy * self.cold(time)
+    fn ln_factor(&self, time: f64, age: f64) -> f64 {
+        self.ln_cured(age) + self.flow_energy * self.inverse_difference(time)
     }
 
-    /// Whether the law is at its gel time, where it is infinite however small its exponent.
+    /// Whether the law has reached its gel time, where the factor is infinite for any exponent.
     fn has_gelled(&self, age: f64) -> bool {
         matches!(self.course, Some(Course::Gel { time, .. }) if age >= time * (1.0 - GELLED))
     }
@@ -111,8 +110,8 @@ impl CureLaw {
     }
 }
 
-/// A factor of the viscosity against time, resolved from a [`CureLaw`] to knots between which its
-/// logarithm is linear; constant after the last one.
+/// The factor on the viscosity against time, resolved from a [`CureLaw`] to knots. Its logarithm is linear between knots and
+/// constant after the last one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cure {
     /// Times from 0 on (s), and ln(factor).
@@ -121,34 +120,34 @@ pub struct Cure {
 }
 
 impl Cure {
-    /// Resolves `law`: marches over time in steps in which little changes.
+    /// Resolves `law` by marching over time in small steps.
     ///
     /// # Errors
-    /// One sentence on what of the law is out of range.
+    /// One sentence on the value out of range.
     pub fn new(law: &CureLaw) -> Result<Self, String> {
         law.check()?;
-        let heats: Vec<f64> = law.temperature.iter().map(|p| p.0).collect();
+        let temperature_times: Vec<f64> = law.temperature.iter().map(|p| p.0).collect();
         let ages: Vec<f64> = match &law.course {
             None => Vec::new(),
             Some(Course::Table(points)) => points.iter().map(|p| p.0).collect(),
             Some(Course::Gel { time, .. }) => vec![*time],
         };
-        let begin = law.factor(0.0, 0.0);
+        let begin = law.ln_factor(0.0, 0.0);
         let (mut time, mut age, mut step) = (0.0_f64, 0.0_f64, f64::INFINITY);
         let mut cure = Self {
             knots: vec![(0.0, begin)],
             set: false,
         };
-        while let Some(left) = left(law, &heats, &ages, time, age) {
-            let (from, mut dt) = (law.factor(time, age), left.min(step));
+        while let Some(left) = time_to_change(law, &temperature_times, &ages, time, age) {
+            let (from, mut dt) = (law.ln_factor(time, age), left.min(step));
             let (older, to) = loop {
                 // Simpson's rule for the age over the step.
-                let haste = [0.0, 0.5, 1.0].map(|part| law.haste(time + part * dt));
-                let [a, b, c] = haste.map(f64::exp);
+                let ln_speeds = [0.0, 0.5, 1.0].map(|part| law.ln_speed(time + part * dt));
+                let [a, b, c] = ln_speeds.map(f64::exp);
                 let older = age + dt / 6.0 * (a + 4.0 * b + c);
-                let to = law.factor(time + dt, older);
-                let change = (to - from).abs().max((haste[2] - haste[0]).abs());
-                if change <= BETWEEN {
+                let to = law.ln_factor(time + dt, older);
+                let change = (to - from).abs().max((ln_speeds[2] - ln_speeds[0]).abs());
+                if change <= MOST_CHANGE {
                     break (older, to);
                 }
                 dt *= 0.5;
@@ -170,19 +169,19 @@ impl Cure {
         Ok(cure)
     }
 
-    /// Factor of the viscosity at a time, s.
+    /// Factor on the viscosity at a time, s.
     pub fn factor(&self, time: f64) -> f64 {
-        between(&self.knots, time, |ln| ln).exp()
+        interpolated(&self.knots, time, |ln| ln).exp()
     }
 
-    /// When the liquid has set: the viscosity is [`SET`] times that at the start; `None`: never.
+    /// Time (s) at which the liquid has set, i.e. the viscosity is [`SET`] times that at the start; `None`: never.
     pub fn set_at(&self) -> Option<f64> {
         self.knots.last().filter(|_| self.set).map(|knot| knot.0)
     }
 
-    /// For how long from `time` (s) on ln(factor) changes by no more than `most`, s.
+    /// Duration (s) from `time` (s) on in which ln(factor) changes by no more than `most`.
     pub fn steady(&self, time: f64, most: f64) -> f64 {
-        let here = between(&self.knots, time, |ln| ln);
+        let here = interpolated(&self.knots, time, |ln| ln);
         let first = self.knots.partition_point(|knot| knot.0 <= time);
         let (mut last, mut from) = (time, here);
         for &(then, to) in &self.knots[first..] {
@@ -196,28 +195,34 @@ impl Cure {
         f64::INFINITY
     }
 
-    /// Sum over the knots of the changes of ln(factor) up to `time`, s.
+    /// Total variation of ln(factor) at the knots up to `time`, s.
     pub fn change(&self, time: f64) -> f64 {
         let before = self.knots.windows(2).filter(|pair| pair[0].0 < time);
         before.map(|pair| (pair[1].1 - pair[0].1).abs()).sum()
     }
 }
 
-/// Time to the next point at which a formula of `law` changes, s; `None` where nothing changes any more.
-fn left(law: &CureLaw, heats: &[f64], ages: &[f64], time: f64, age: f64) -> Option<f64> {
-    let heat = heats.iter().find(|mark| **mark > time);
+/// Time to the next point at which the formula of `law` changes, s; `None` after the last one.
+fn time_to_change(
+    law: &CureLaw,
+    temperature_times: &[f64],
+    ages: &[f64],
+    time: f64,
+    age: f64,
+) -> Option<f64> {
+    let heat = temperature_times.iter().find(|mark| **mark > time);
     let heat = heat.map(|mark| mark - time);
-    // A hair, so that a sum of many steps that should meet a mark does.
+    // A tolerance for the rounding of a sum of many steps.
     let course = ages.iter().find(|mark| **mark > age * (1.0 + 1e-12));
-    let course = course.map(|mark| (mark - age) / law.haste(time).exp());
+    let course = course.map(|mark| (mark - age) / law.ln_speed(time).exp());
     match (heat, course) {
         (Some(heat), Some(course)) => Some(heat.min(course)),
         (heat, course) => heat.or(course),
     }
 }
 
-/// Values of points (argument, value) in between by `of` of the values, linear; constant outside.
-fn between(points: &[(f64, f64)], x: f64, of: impl Fn(f64) -> f64) -> f64 {
+/// Interpolates `of` the values linearly between points (argument, value); constant outside.
+fn interpolated(points: &[(f64, f64)], x: f64, of: impl Fn(f64) -> f64) -> f64 {
     match neighbours(points, x) {
         [Some((a, fa)), Some((b, fb))] => of(fa) + (x - a) / (b - a) * (of(fb) - of(fa)),
         [one, other] => one.or(other).map_or(0.0, |point| of(point.1)),
@@ -268,8 +273,8 @@ mod tests {
         assert!((cure.factor(set) / SET - 1.0).abs() < 1e-9);
     }
 
-    /// 20 K below, the cure takes exp(E/R (1/380 - 1/400)) = 3.55 times as long; while it heats up, as long
-    /// as the integral of the rates says.
+    /// At 20 K below the reference the cure takes exp(E/R (1/380 - 1/400)) = 3.55 times as long; while it heats up, the time
+    /// follows from the integral of the rates.
     #[test]
     fn the_cure_is_slower_in_the_cold() {
         let slower = (80e3 / GAS * (1.0 / 380.0 - 1.0 / 400.0)).exp();

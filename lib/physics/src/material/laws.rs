@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::Rheology;
 
-/// A viscosity law by formula, its parameters by the symbols of the formula. All are finite at any rate and
-/// have a stress that never falls with the rate, so that a flow under a given load is one.
+/// A viscosity law by formula; parameters have the symbols of the formula. All laws are finite at any rate, and their stress
+/// never falls with the rate, so that the flow under a given load is unique.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// eta = K rate^(n - 1) between two rates, and constant outside (Ostwald 1925; de Waele 1923).
@@ -14,7 +14,7 @@ pub enum Law {
         k: f64,
         /// n.
         n: f64,
-        /// Where it holds, 1/s.
+        /// Range of rates, 1/s.
         rates: [f64; 2],
     },
     /// eta = eta_inf + (eta_0 - eta_inf)/(1 + (rate time)^m) (Cross 1965).
@@ -37,8 +37,8 @@ pub enum Law {
         /// a; 2 is Carreau's.
         a: f64,
     },
-    /// Stress (tau_y + K rate^n) (1 - exp(-rate/r)), finite at rest by the rate r (Papanastasiou 1987 in the
-    /// form of Souza Mendes & Dutra 2004): below that of Herschel & Bulkley (1926) by the part exp(-rate/r).
+    /// Stress (tau_y + K rate^n) (1 - exp(-rate/r)), regularised by the rate r (Papanastasiou 1987 in the form of Souza Mendes
+    /// & Dutra 2004). It is below that of Herschel & Bulkley (1926) by the fraction exp(-rate/r).
     HerschelBulkley {
         /// tau_y, Pa.
         tau: f64,
@@ -52,7 +52,7 @@ pub enum Law {
 }
 
 impl Law {
-    /// Its name.
+    /// Name of the law.
     pub fn name(&self) -> &'static str {
         match self {
             Law::Power { .. } => "power law",
@@ -62,7 +62,7 @@ impl Law {
         }
     }
 
-    /// Refuses parameters of which no such liquid is known, or whose stress falls with the rate.
+    /// Refuses implausible parameters, and those whose stress falls with the rate.
     ///
     /// # Errors
     /// One sentence.
@@ -132,7 +132,7 @@ impl Rheology for Law {
         &[]
     }
 
-    /// For Herschel-Bulkley a bound, of which rest has at least the part tau_y/(tau_y + K r^n).
+    /// For Herschel-Bulkley an upper bound; the viscosity at rest is at least the fraction tau_y/(tau_y + K r^n) of it.
     fn largest(&self) -> f64 {
         match *self {
             Law::Power { rates, .. } => self.viscosity(rates[0]).max(self.viscosity(rates[1])),
@@ -216,7 +216,7 @@ pub(crate) mod tests {
         assert_eq!(power.viscosity(0.0), 10.0);
         assert_eq!(power.viscosity(1e9), power.viscosity(1e6));
         assert_eq!([cross, carreau].map(|law| law.viscosity(0.0)), [100.0; 2]);
-        // At one over the time: half way, and 2^(-0.3) of it.
+        // At a rate of 1/time: half way between the plateaus, and 2^(-0.3) of the way.
         close(cross.viscosity(10.0), 0.1 + 99.9 / 2.0);
         close(carreau.viscosity(10.0), 0.1 + 99.9 * 2_f64.powf(-0.3));
         // Herschel-Bulkley's own stress at 4 1/s, 50 + 10 sqrt 4.
@@ -227,7 +227,7 @@ pub(crate) mod tests {
         assert!((lack - (-7.0_f64).exp()).abs() < 1e-12);
     }
 
-    /// Also what the passes over the viscosity rely on.
+    /// The iterations over the viscosity rely on both.
     #[test]
     fn the_stress_grows_with_the_rate_and_the_viscosity_is_bounded() {
         for law in ALL {

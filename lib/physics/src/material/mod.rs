@@ -23,15 +23,15 @@ pub struct Liquid {
     pub tait: Tait,
     /// Viscosity law, paper Eq. 2.
     pub viscosity: Viscosity,
-    /// Factor of that viscosity over time; `None`: always one.
+    /// Cure: a factor on the viscosity over time; `None`: always one.
     pub cure: Option<Cure>,
-    /// What it loses to the wood, and how thick that makes it; `None`: it loses nothing.
+    /// Loss of water to the wood, and its effect on the viscosity; `None`: no loss.
     pub water: Option<Water>,
-    /// How the rate in eta(rate) is defined.
+    /// Definition of the rate in eta(rate).
     pub shear_rate: ShearRate,
-    /// Largest tension the liquid carries, Pa (> 0); `None`: as much as Eq. 1 gives.
+    /// Largest tension that the liquid carries, Pa (> 0); `None`: as given by Eq. 1.
     pub cavitation_pressure: Option<f64>,
-    /// Surface tension and contact angle; `None`: its surface pulls nowhere.
+    /// Surface tension and contact angle; `None`: no surface tension.
     pub wetting: Option<Wetting>,
 }
 
@@ -42,7 +42,7 @@ impl Liquid {
     }
 }
 
-/// The points (argument, value) before and after an argument, of points in ascending order.
+/// The neighbours of `x` among points (argument, value) in ascending order.
 fn neighbours(points: &[(f64, f64)], x: f64) -> [Option<(f64, f64)>; 2] {
     let right = points.partition_point(|point| point.0 <= x);
     let left = right.checked_sub(1).map(|left| points[left]);

@@ -1,12 +1,11 @@
-//! Pressure of a compressed liquid.
+//! Tait's law: pressure of a compressed liquid.
 
 /// The universal Tait constant C (paper Eq. 1; Li 1967).
 pub const TAIT_C: f64 = 0.0894;
 
 /// Tait equation of state, paper Eq. 1: p = C K (exp((1 - J)/C) - 1).
 ///
-/// The state variable is j = J - 1: at K = 1 GPa one ulp of J in f32 is 60 Pa, one ulp of
-/// j near zero is nothing.
+/// The state variable is j = J - 1: at K = 1 GPa one ulp of J in f32 is 60 Pa, but one ulp of j near zero is negligible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tait {
     /// Bulk modulus at J = 1, Pa.
@@ -21,7 +20,7 @@ impl Tait {
     }
 
     /// Relative volume change J - 1 at pressure `p` in Pa; the inverse of [`Tait::pressure`].
-    /// Pressures at or below the law's limit -C K have no J; they give infinity.
+    /// Infinite for pressures at or below the law's limit -C K, which have no J.
     #[inline]
     pub fn volume_change(self, p: f64) -> f64 {
         -TAIT_C * (p / (TAIT_C * self.bulk_modulus)).max(-1.0).ln_1p()

@@ -1,15 +1,15 @@
-//! Viscosity by the shear rate: constant or by table.
+//! Viscosity against shear rate: constant, by table or by formula.
 
 use super::Law;
 use crate::Choice;
 
-/// How the shear rate in eta(rate) is computed from D' = dev sym grad v.
+/// Definition of the shear rate in eta(rate) by D' = dev sym grad v.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShearRate {
     /// The paper's 2 |dev D|, below its Eq. 2.
     #[default]
     Paper,
-    /// sqrt(2 D':D'), which is the shear rate of a rheometer in simple shear.
+    /// sqrt(2 D':D'), the shear rate of a rheometer in simple shear.
     Rheometer,
 }
 
@@ -29,17 +29,16 @@ impl ShearRate {
     }
 }
 
-/// A viscosity law. Kernels are generic over it, so that a Newtonian scene never looks at a
-/// table.
+/// A viscosity law. Kernels are generic over it, so that a Newtonian scene never evaluates a table.
 pub trait Rheology: Clone + Send + Sync {
     /// Viscosity in Pa s at a shear rate in 1/s.
     fn viscosity(&self, rate: f64) -> f64;
-    /// Rates between which the law is linear in the rate's logarithm and outside of which it is constant,
-    /// ascending, 1/s; none for one formula, whose stress then never falls with the rate.
+    /// Rates in ascending order, 1/s, between which the law is linear in the logarithm of the rate, and outside of which it is
+    /// constant. Empty for a formula, whose stress must not fall with the rate.
     fn breakpoints(&self) -> &[f64];
     /// Largest viscosity the law can give, Pa s.
     fn largest(&self) -> f64;
-    /// Whether the viscosity is one number, so that its rate need not be computed.
+    /// Whether the viscosity is constant, so that the rate need not be computed.
     const CONSTANT: bool;
 }
 
@@ -124,7 +123,7 @@ impl Rheology for Table {
     const CONSTANT: bool = false;
 }
 
-/// The viscosity law of a scene; matched once per run to pick monomorphic kernels.
+/// The viscosity law of a scene; matched once per run to choose monomorphic kernels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Viscosity {
     /// Constant.

@@ -1,46 +1,46 @@
-//! Loss of water into the cell walls of wood: how fast, how far, and what it does to the viscosity.
+//! Loss of water to the cell walls of wood: rate, limit, and effect on the viscosity.
 
 use super::neighbours;
 
 /// Density of water, kg/m3.
-const WATER: f64 = 1000.0;
-/// Part of a solids content by which two that should agree may differ.
+const WATER_DENSITY: f64 = 1000.0;
+/// Rounding of a solids content, relative.
 const ROUNDING: f64 = 1e-9;
 
-/// What a case says of the loss of water.
+/// The law of the loss of water in a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaterLaw {
     /// Volume of water that wood takes per wetted area and time, m/s.
     pub uptake: f64,
     /// Solids content of the liquid at the start, by mass.
     pub solids: f64,
-    /// Volume of water that a wall holds per area, m; without end where it is not given.
+    /// Volume of water that a wall holds per area, m; `None`: unlimited.
     pub capacity: Option<f64>,
-    /// Solids content from which wood takes no more; that of the last point of `factor` where it is not given.
+    /// Solids content at which the loss ends; `None`: that of the last point of `factor`.
     pub limit: Option<f64>,
     /// Diffusivity of water in the liquid, m2/s.
     pub diffusivity: f64,
-    /// Points (solids content, factor of the viscosity): ln(factor) is linear between them.
+    /// Points (solids content, factor on the viscosity); ln(factor) is linear between them.
     pub factor: Vec<(f64, f64)>,
-    /// Names of the bodies that take water; none: all.
+    /// Names of the bodies that take water; empty: all.
     pub walls: Vec<String>,
 }
 
-/// A liquid that loses water, resolved from a [`WaterLaw`]. Its state is the ratio of the volumes of
-/// water and solids, in which volumes are additive: what leaves is missing from the liquid's volume.
+/// The loss of water, resolved from a [`WaterLaw`]. The state variable is the ratio of the volumes of water and solids.
+/// Volumes are additive: the liquid shrinks by the water it loses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Water {
     law: WaterLaw,
     limit: f64,
     /// Density of the solids, kg/m3.
-    solid: f64,
+    solids_density: f64,
 }
 
 impl Water {
     /// Resolves `law` for a liquid of `density` (kg/m3) at the start.
     ///
     /// # Errors
-    /// One sentence on what of the law is out of range.
+    /// One sentence on the value out of range.
     pub fn new(law: WaterLaw, density: f64) -> Result<Self, String> {
         let (Some(&first), Some(&last)) = (law.factor.first(), law.factor.last()) else {
             return Err("viscosity_by_solids needs two rows or more".into());
@@ -69,15 +69,19 @@ impl Water {
                 law.solids, last.0
             ));
         }
-        let water = (1.0 - law.solids) * density / WATER;
+        let water = (1.0 - law.solids) * density / WATER_DENSITY;
         if water >= 1.0 {
             return Err(format!(
                 "solids = {} at a density of {density} kg/m3 leaves no room for the solids: of a litre, {water:.3} l would be water",
                 law.solids
             ));
         }
-        let solid = law.solids * density / (1.0 - water);
-        Ok(Self { law, limit, solid })
+        let solids_density = law.solids * density / (1.0 - water);
+        Ok(Self {
+            law,
+            limit,
+            solids_density,
+        })
     }
 
     /// Volume of water over that of the solids at the start.
@@ -85,23 +89,22 @@ impl Water {
         self.ratio(self.law.solids)
     }
 
-    /// The same where wood takes no more.
+    /// Volume of water over that of the solids at which the loss ends.
     pub fn least(&self) -> f64 {
         self.ratio(self.limit)
     }
 
     /// Volume of water over that of the solids at a solids content by mass.
     pub fn ratio(&self, solids: f64) -> f64 {
-        (1.0 / solids - 1.0) * self.solid / WATER
+        (1.0 / solids - 1.0) * self.solids_density / WATER_DENSITY
     }
 
     /// Solids content by mass at a volume of water over that of the solids.
     pub fn solids(&self, ratio: f64) -> f64 {
-        self.solid / (self.solid + WATER * ratio)
+        self.solids_density / (self.solids_density + WATER_DENSITY * ratio)
     }
 
-    /// What multiplies the viscosity at a volume of water over that of the solids; that of the nearer end
-    /// outside the table.
+    /// Factor on the viscosity at a volume of water over that of the solids; outside the table that of its nearer end.
     pub fn factor(&self, ratio: f64) -> f64 {
         let solids = self.solids(ratio);
         match neighbours(&self.law.factor, solids) {
@@ -125,12 +128,12 @@ impl Water {
         self.law.diffusivity
     }
 
-    /// Whether the body of this name takes water.
+    /// Whether the body named `body` takes water.
     pub fn enters(&self, body: &str) -> bool {
         self.law.walls.is_empty() || self.law.walls.iter().any(|name| name == body)
     }
 
-    /// The first name in `walls` that no body has, of those of these names.
+    /// The first name in `walls` that is not among the names `bodies`.
     pub fn stray<'a>(&'a self, bodies: &[&str]) -> Option<&'a str> {
         let mut names = self.law.walls.iter().map(String::as_str);
         names.find(|name| !bodies.contains(name))
@@ -138,7 +141,7 @@ impl Water {
 
     /// Mass (kg) of a volume of water, m3.
     pub fn mass(volume: f64) -> f64 {
-        WATER * volume
+        WATER_DENSITY * volume
     }
 }
 

@@ -1,18 +1,18 @@
-//! Surface tension and contact angle: what draws a liquid into a pore throat, or keeps it out.
+//! Surface tension and contact angle, which draw a liquid into a pore throat or keep it out.
 
-/// How the liquid wets the walls.
+/// Wetting of the walls by the liquid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wetting {
     /// Surface tension sigma, N/m.
     pub tension: f64,
-    /// Contact angle theta, measured in the liquid: below a right angle it wets. Rad, 0 to pi.
+    /// Contact angle theta, measured in the liquid, rad, 0 to pi. The liquid wets below a right angle.
     pub contact_angle: f64,
 }
 
 impl Wetting {
-    /// Adhesion tension sigma cos(theta), N/m: the force along a wall of a unit of contact line. Times
-    /// the perimeter over the area of a throat it is the pressure jump of a meniscus that spans it
-    /// (Young 1805, Laplace 1806): 2/r in a tube, 2/H in a slit.
+    /// Adhesion tension sigma cos(theta), N/m: the force along a wall per length of contact line. Times perimeter over area of
+    /// a throat (2/r in a tube, 2/H in a slit) it is the pressure jump across a meniscus in the throat (Young 1805, Laplace
+    /// 1806).
     pub fn adhesion(&self) -> f64 {
         self.tension * self.contact_angle.cos()
     }

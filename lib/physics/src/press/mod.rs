@@ -1,4 +1,4 @@
-//! A press programme: stages of speed and pressure that a clamp goes through.
+//! A press programme: stages of speed and pressure of a clamp.
 
 mod run;
 
@@ -6,7 +6,7 @@ use crate::Choice;
 
 pub use run::{CONTROLLED, PressRun, PressStep};
 
-/// What a stage of a press programme does.
+/// Kind of a stage of a press programme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Press {
     /// Closes at its speed.
@@ -15,7 +15,7 @@ pub enum Press {
     Ramp,
     /// Keeps a pressure.
     Hold,
-    /// Presses no more: the clamp's body goes where the liquid pushes it.
+    /// Sets zero pressure: the liquid may push the clamp's body back.
     Release,
 }
 
@@ -28,14 +28,14 @@ impl Choice for Press {
     ];
 }
 
-/// One stage of a press programme, with all that may end it.
+/// A stage of a press programme, with all its end conditions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressStage {
-    /// What it does.
+    /// Kind of the stage.
     pub kind: Press,
     /// Largest speed of the clamp, closing or giving way, m/s.
     pub speed: f64,
-    /// Pressure at its end, Pa, which an approach ends at; `None` where an approach has no limit.
+    /// Pressure at its end, Pa, which ends an approach; `None` for an approach without a limit.
     pub pressure: Option<f64>,
     /// Longest duration, s.
     pub time_s: f64,
@@ -43,11 +43,11 @@ pub struct PressStage {
     pub travel_m: Option<f64>,
     /// Whether the first step in which liquid presses on the clamp's body ends it.
     pub contact: bool,
-    /// Speed of the clamp, and so of what leaves the bond line per area, below which it ends, m/s.
+    /// Speed of the clamp, i.e. outflow per bond area, below which it ends, m/s.
     pub slower: Option<f64>,
 }
 
-/// What ended a stage.
+/// Reason of the end of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// Its time was over.
@@ -60,7 +60,7 @@ pub enum Reason {
     Travel,
     /// The clamp had become slower than asked for.
     Slower,
-    /// The clamp had gone all its way: wood lies on wood.
+    /// The clamp reached the end of its travel: wood lies on wood.
     Closed,
 }
 
@@ -75,15 +75,15 @@ impl Choice for Reason {
     ];
 }
 
-/// How a stage ended.
+/// The end of a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageEnd {
-    /// Why.
+    /// Reason.
     pub reason: Reason,
-    /// When, s since the start of the run.
+    /// Time since the start of the run, s.
     pub time_s: f64,
-    /// Travel of the clamp then, m.
+    /// Travel of the clamp at that time, m.
     pub travel_m: f64,
-    /// Pressure on its body then, Pa.
+    /// Pressure on the clamp's body at that time, Pa.
     pub pressure: f64,
 }

@@ -1,12 +1,12 @@
-//! Where a clamp is in its press programme.
+//! Progress of a clamp through its press programme.
 
 use super::{Press, PressStage, Reason, StageEnd};
 use crate::{Choice, StepLimit};
 
-/// A step as the programme sees it.
+/// The data of a step that the programme needs.
 #[derive(Clone, Copy, Debug)]
 pub struct PressStep {
-    /// Its length, s.
+    /// Duration, s.
     pub dt_s: f64,
     /// Speed of the clamp, m/s.
     pub speed: f64,
@@ -16,49 +16,50 @@ pub struct PressStep {
     pub pressure: f64,
 }
 
-/// Part of a pressure that control leaves, half of the 1 % aimed at: so far below it counts as reached, so far above a clamp is held.
+/// Relative tolerance of pressure control, half of the 1 % aimed at: a pressure this far below counts as reached, and this far
+/// above it a clamp is held.
 pub const CONTROLLED: f64 = 5e-3;
-/// Part of a way or a time that rounding may leave of it.
+/// Rounding of a travel or a time, relative.
 const ROUNDING: f64 = 1e-9;
-/// Steps of a ramp, or until a clamp that stands is found slower than asked for, over all of the time.
-const PARTS: f64 = 10.0;
-/// Numbers of the state besides those of the stages that have ended.
-const PLACE: usize = 5;
-/// Numbers of a stage that has ended.
-const END: usize = 4;
+/// Least number of steps of a ramp, and of a stage that ends when the clamp is slow.
+const LEAST_STEPS: f64 = 10.0;
+/// Numbers in the state without the ended stages.
+const STATE_NUMBERS: usize = 5;
+/// Numbers in the state for each ended stage.
+const STAGE_NUMBERS: usize = 4;
 
-/// A programme, and where a clamp is in it.
+/// A press programme and the progress of a clamp through it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PressRun {
     stages: Vec<PressStage>,
-    /// Way of the clamp, m.
+    /// Largest travel of the clamp, m.
     room_m: f64,
-    /// Stage of the last step.
-    before: usize,
+    /// Index of the stage of the last step.
+    last_stage: usize,
     elapsed_s: f64,
     time_s: f64,
-    /// Pressure that the stage began at, Pa.
-    from: f64,
+    /// Pressure at the start of the stage, Pa.
+    start_pressure: f64,
     closed: bool,
     ended: Vec<StageEnd>,
 }
 
 impl PressRun {
-    /// The start of a programme of at least one stage for a clamp that can go `room_m` (m).
+    /// The start of a programme of at least one stage for a clamp that can travel `room_m` (m).
     pub fn new(stages: Vec<PressStage>, room_m: f64) -> Self {
         Self {
             stages,
             room_m,
-            before: 0,
+            last_stage: 0,
             elapsed_s: 0.0,
             time_s: 0.0,
-            from: 0.0,
+            start_pressure: 0.0,
             closed: false,
             ended: Vec::new(),
         }
     }
 
-    /// The stage that is on; the last one when all are over.
+    /// The current stage; the last one when all are over.
     pub fn stage(&self) -> &PressStage {
         &self.stages[self.ended.len().min(self.stages.len() - 1)]
     }
@@ -68,22 +69,22 @@ impl PressRun {
         self.ended.len() == self.stages.len()
     }
 
-    /// Index of the stage that the last step was of.
+    /// Index of the stage of the last step.
     pub fn last_stage(&self) -> usize {
-        self.before
+        self.last_stage
     }
 
-    /// Stages with their ends so far.
+    /// The ended stages with their ends.
     pub fn ended(&self) -> impl Iterator<Item = (&PressStage, &StageEnd)> {
         self.stages.iter().zip(&self.ended)
     }
 
-    /// Whether the clamp has gone all its way and goes no further.
+    /// Whether the clamp has reached the end of its travel.
     pub fn is_closed(&self) -> bool {
         self.closed
     }
 
-    /// Whether a stage ended so with the clamp at the end of its way, under less than the stage's pressure.
+    /// Whether a stage ended with the clamp at the end of its travel, under less than the stage's pressure.
     pub fn is_closed_below(&self, stage: &PressStage, end: &StageEnd) -> bool {
         let less = |p: f64| end.pressure < p * (1.0 - CONTROLLED);
         stage.kind != Press::Release
@@ -98,7 +99,7 @@ impl PressRun {
             .fold(0.0, f64::max)
     }
 
-    /// Pressure (Pa) that is set `ahead_s` (s) from now; infinite where there is no limit.
+    /// Set pressure (Pa) at `ahead_s` (s) from now; infinite without a limit.
     pub fn set_pressure(&self, ahead_s: f64) -> f64 {
         let stage = self.stage();
         let target = stage.pressure.unwrap_or(f64::INFINITY);
@@ -106,22 +107,22 @@ impl PressRun {
             return target;
         }
         let part = ((self.elapsed_s + ahead_s) / stage.time_s).min(1.0);
-        self.from + (target - self.from) * part
+        self.start_pressure + (target - self.start_pressure) * part
     }
 
-    /// Whether the stage begins under less than the pressure that was reached, so that the clamp gives way at once.
+    /// Whether the stage begins with a set pressure below the one reached, so that the clamp gives way at once.
     pub fn gives_way(&self) -> bool {
-        self.elapsed_s == 0.0 && self.set_pressure(0.0) < (1.0 - CONTROLLED) * self.from
+        self.elapsed_s == 0.0 && self.set_pressure(0.0) < (1.0 - CONTROLLED) * self.start_pressure
     }
 
-    /// A limit of a step within the stage, for a clamp that has travelled `travel_m` (m).
+    /// Limits a step to the current stage, for a clamp that has travelled `travel_m` (m).
     pub fn within(&self, limit: StepLimit, travel_m: f64) -> StepLimit {
         let stage = self.stage();
         let end = stage.travel_m.unwrap_or(self.room_m).min(self.room_m);
         let left = stage.time_s - self.elapsed_s;
-        // What the end of a step decides, or what changes in it, is not to wait for all of a long stage.
+        // A ramp changes within a step, and slowness is checked at its end: both need several steps in a long stage.
         let parts = match (stage.kind, stage.slower) {
-            (Press::Ramp, _) | (_, Some(_)) => (PARTS * left / stage.time_s).ceil().max(1.0),
+            (Press::Ramp, _) | (_, Some(_)) => (LEAST_STEPS * left / stage.time_s).ceil().max(1.0),
             _ => 1.0,
         };
         StepLimit {
@@ -130,9 +131,9 @@ impl PressRun {
         }
     }
 
-    /// Takes in a step; whether it ended the stage.
+    /// Advances by a step; returns whether it ended the stage.
     pub fn observe(&mut self, step: PressStep) -> bool {
-        self.before = self.ended.len().min(self.stages.len() - 1);
+        self.last_stage = self.ended.len().min(self.stages.len() - 1);
         self.elapsed_s += step.dt_s;
         self.time_s += step.dt_s;
         self.closed = step.travel_m >= self.room_m * (1.0 - ROUNDING);
@@ -151,7 +152,7 @@ impl PressRun {
             true => set,
             false => self.stage().pressure.unwrap_or(0.0),
         };
-        self.from = step.pressure.clamp(0.0, most);
+        self.start_pressure = step.pressure.clamp(0.0, most);
         true
     }
 
@@ -169,7 +170,7 @@ impl PressRun {
         } else if approach && self.closed {
             Some(Reason::Closed)
         } else if stage.slower.is_some_and(|least| step.speed.abs() < least) {
-            // A clamp that stands on wood is not slow for its liquid.
+            // A closed clamp stands on wood: the liquid is not the reason.
             Some(match self.closed && stage.kind == Press::Hold {
                 true => Reason::Closed,
                 false => Reason::Slower,
@@ -181,11 +182,17 @@ impl PressRun {
         }
     }
 
-    /// The changing part, for checkpoints.
+    /// The state for checkpoints.
     pub fn state(&self) -> Vec<f64> {
         let closed = f64::from(u8::from(self.closed));
-        let before = self.before as f64;
-        let mut state = vec![before, self.elapsed_s, self.time_s, self.from, closed];
+        let before = self.last_stage as f64;
+        let mut state = vec![
+            before,
+            self.elapsed_s,
+            self.time_s,
+            self.start_pressure,
+            closed,
+        ];
         for end in &self.ended {
             let index = Reason::NAMED.iter().position(|(_, r)| *r == end.reason);
             let index = index.unwrap_or_default() as f64;
@@ -194,17 +201,17 @@ impl PressRun {
         state
     }
 
-    /// Goes back to a saved changing part.
+    /// Restores a saved state.
     ///
     /// # Errors
-    /// A sentence where no run of this programme saves that.
+    /// A sentence if no run of this programme can have this state.
     pub fn set_state(&mut self, state: &[f64]) -> Result<(), String> {
         let wrong = || "the checkpoint's press programme is not that of the case".to_owned();
-        let Some((place, ends)) = state.split_first_chunk::<PLACE>() else {
+        let Some((place, ends)) = state.split_first_chunk::<STATE_NUMBERS>() else {
             return Err(wrong());
         };
         let &[before, elapsed_s, time_s, from, closed] = place;
-        let (ends, rest) = ends.as_chunks::<END>();
+        let (ends, rest) = ends.as_chunks::<STAGE_NUMBERS>();
         if !rest.is_empty()
             || ends.len() > self.stages.len()
             || place.iter().any(|x| *x < 0.0)
@@ -226,8 +233,8 @@ impl PressRun {
         if !self.is_over() && elapsed_s > self.stage().time_s {
             return Err(wrong());
         }
-        self.before = before as usize;
-        (self.elapsed_s, self.time_s, self.from) = (elapsed_s, time_s, from);
+        self.last_stage = before as usize;
+        (self.elapsed_s, self.time_s, self.start_pressure) = (elapsed_s, time_s, from);
         self.closed = closed != 0.0;
         Ok(())
     }
@@ -323,8 +330,8 @@ mod tests {
         let mut again = programme();
         again.set_state(&state).unwrap();
         assert_eq!(again, run);
-        assert_eq!(state.len(), PLACE + END);
-        for (place, value) in [(0, 9.0), (1, 3.0), (1, -1.0), (PLACE, 17.0)] {
+        assert_eq!(state.len(), STATE_NUMBERS + STAGE_NUMBERS);
+        for (place, value) in [(0, 9.0), (1, 3.0), (1, -1.0), (STATE_NUMBERS, 17.0)] {
             let mut forged = state.clone();
             forged[place] = value;
             assert!(programme().set_state(&forged).is_err(), "{place} {value}");

@@ -1,11 +1,11 @@
-//! Scenes of PF between mirrors, with walls it sticks to, for tests of both schemes: what a test does not say otherwise.
+//! Default scene for tests of both schemes: PF between symmetry sides, with sticking walls.
 
 use physics::{
     Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, ShearRate,
     Stop, Tait, Viscosity, VoxelBlock, WallLaw,
 };
 
-/// No liquid and no body yet in `cells` of edge `cell_m`; flat where there is one along z.
+/// A scene without liquid and bodies in `cells` of edge `cell_m`; plane strain for one cell along z.
 pub fn scene(cell_m: f64, cells: [usize; 3]) -> Scene {
     Scene {
         dimensions: if cells[2] == 1 {

@@ -103,9 +103,9 @@ pub(crate) struct Kelvin(pub(crate) f64);
 
 impl<'de> Deserialize<'de> for Kelvin {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-        /// 0 C, K.
+        /// 0 C in K.
         const ICE: f64 = 273.15;
-        /// Above it wood is none, K.
+        /// Wood does not exist above this temperature, K.
         const MOST: f64 = 1000.0;
         let text = String::deserialize(reader)?;
         let number = |unit: &str| text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok();

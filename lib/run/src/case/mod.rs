@@ -1,9 +1,9 @@
-//! The case file: what a user writes, as TOML, before it is resolved to SI.
+//! The case file: a user's TOML, before it is resolved to SI.
 //!
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
 mod adhesive;
-mod page;
+mod reference;
 mod schema;
 mod value;
 
@@ -14,17 +14,18 @@ use std::path::Path;
 use particle_file::limits;
 
 pub(crate) use adhesive::{Adhesive, CureTable, WaterTable};
-pub use page::REFERENCE;
-pub(crate) use page::{Table, tables};
+pub use reference::REFERENCE;
+pub(crate) use reference::{ReferenceTable, tables};
 pub(crate) use schema::{
-    AirTable, Body, BoxCorners, Case, ClampTable, Contact, MaterialName, SchemeName, StageTable,
+    AirTable, BodyTable, BoxCorners, Case, ClampTable, ContactTable, MaterialName, SchemeName,
+    StageTable,
 };
 pub(crate) use value::{BodyVelocity, EdgeLength, StopRule};
 
 use crate::failure::RunFailure;
 
 /// The text of a case file.
-/// Errors: exit 2 when it cannot be read, is longer than a case can be, or is no text.
+/// Errors: exit 2 if it cannot be read, is too long, or is no text.
 pub(crate) fn case_text(path: &Path) -> Result<String, RunFailure> {
     let refused = |why: String| {
         RunFailure::Usage(format!(
@@ -45,7 +46,7 @@ pub(crate) fn case_text(path: &Path) -> Result<String, RunFailure> {
 
 impl Case {
     /// Parses the text of a case file; `path` is for messages.
-    /// Errors: Not TOML, unknown or missing keys, values without unit or out of range.
+    /// Errors: no TOML, unknown or missing keys, values without unit or out of range.
     pub(crate) fn parse(text: &str, path: &Path) -> Result<Self, RunFailure> {
         toml::from_str(text).map_err(|error| {
             let place = error.span().map_or(String::new(), |span| {

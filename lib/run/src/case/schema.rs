@@ -1,4 +1,4 @@
-//! The tables and keys of a case file, but for those of the liquid; docs/case-file.md says what each is.
+//! The tables and keys of a case file, except those of the liquid. docs/case-file.md explains each.
 
 use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
 use physics::{Boundary, Choice, Press, WallLaw};
@@ -12,25 +12,25 @@ use super::value::{BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxe
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Case {
-    pub(crate) grid: Grid,
+    pub(crate) grid: GridTable,
     pub(crate) adhesive: Adhesive,
-    pub(crate) contact: Option<Contact>,
+    pub(crate) contact: Option<ContactTable>,
     pub(crate) clamp: Option<ClampTable>,
-    pub(crate) integrator: Integrator,
+    pub(crate) integrator: IntegratorTable,
     #[serde(default)]
     pub(crate) output: OutputTable,
     #[serde(default)]
-    pub(crate) body: Vec<Body>,
-    pub(crate) gravity: Option<Gravity>,
+    pub(crate) body: Vec<BodyTable>,
+    pub(crate) gravity: Option<GravityTable>,
     pub(crate) air: Option<AirTable>,
     #[serde(default)]
-    pub(crate) boundary: Axes,
+    pub(crate) boundary: BoundaryTable,
     pub(crate) stop: Option<StopTable>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Grid {
+pub(crate) struct GridTable {
     #[serde(deserialize_with = "in_voxels")]
     pub(crate) cell: EdgeLength,
     #[serde(default = "three")]
@@ -52,7 +52,7 @@ fn two() -> u8 {
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Contact {
+pub(crate) struct ContactTable {
     #[serde(deserialize_with = "choice")]
     pub(crate) law: WallLaw,
     pub(crate) influence_length: Option<EdgeLength>,
@@ -96,7 +96,7 @@ pub(crate) struct StageTable {
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Integrator {
+pub(crate) struct IntegratorTable {
     #[serde(deserialize_with = "choice")]
     pub(crate) scheme: SchemeName,
     #[serde(default, deserialize_with = "some_choice")]
@@ -130,7 +130,7 @@ pub(crate) struct OutputTable {
     pub(crate) penetration: bool,
 }
 
-/// More than this is a mistake: a file each.
+/// Most snapshots accepted; each is a file.
 const MOST_SNAPSHOTS: u32 = 1_000_000;
 
 fn snapshots<'de, R: serde::Deserializer<'de>>(reader: R) -> Result<u32, R::Error> {
@@ -145,7 +145,7 @@ fn snapshots<'de, R: serde::Deserializer<'de>>(reader: R) -> Result<u32, R::Erro
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Body {
+pub(crate) struct BodyTable {
     pub(crate) material: MaterialName,
     #[serde(rename = "box")]
     pub(crate) corners: BoxCorners,
@@ -170,7 +170,7 @@ pub(crate) struct BoxCorners {
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Gravity {
+pub(crate) struct GravityTable {
     pub(crate) acceleration: [Quantity<Acceleration>; 3],
 }
 
@@ -181,10 +181,10 @@ pub(crate) struct AirTable {
     pub(crate) leak_time: Option<Positive<Time>>,
 }
 
-/// Of the sides normal to each axis.
+/// Conditions on the sides normal to each axis.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Axes {
+pub(crate) struct BoundaryTable {
     #[serde(default, deserialize_with = "choice")]
     pub(crate) x: Boundary,
     #[serde(default, deserialize_with = "choice")]

@@ -1,4 +1,4 @@
-//! Values of a case file that are more than a plain quantity.
+//! Values of a case file that are not plain quantities.
 
 use physics::Choice;
 use serde::Deserialize;
@@ -24,13 +24,12 @@ impl<'de, D: Dimension> Deserialize<'de> for Positive<D> {
     }
 }
 
-/// A quantity greater than zero in SI, or a sentence that ends with what else is accepted.
+/// A quantity greater than zero, in SI. The error names `or` as the accepted alternative.
 fn positive<D: Dimension, E: Error>(text: &str, or: &str) -> Result<f64, E> {
     units::positive::<D>(text).map_err(|e| E::custom(format!("{e}, or {or}")))
 }
 
-/// A length, or a multiple of an edge: that of a cell (`"0.01 cell"`) or, for the cell itself, of the specimen's voxel
-/// (`"2 voxels"`).
+/// A length, or a multiple of an edge: of a cell (`"0.01 cell"`) or, for the cell itself, of a voxel (`"2 voxels"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum EdgeLength {
     Edges(f64),
@@ -39,7 +38,7 @@ pub(crate) enum EdgeLength {
 }
 
 impl EdgeLength {
-    /// In metres for an edge of `edge_m`.
+    /// In metres, for edges of `edge_m`.
     pub(crate) fn si(self, edge_m: f64) -> f64 {
         match self {
             Self::Edges(n) => n * edge_m,
@@ -55,8 +54,8 @@ impl EdgeLength {
         }
     }
 
-    /// Of a text with one of the `names` of an edge, which go on as in `example`, or a length; `or` is what a refusal of
-    /// the latter says besides.
+    /// Parses a number followed by one of the `names` of an edge, as in `example`, or a length. The error on a wrong length
+    /// names `or` as the alternative.
     fn parse<E: Error>(text: &str, names: &[&str], example: &str, or: &str) -> Result<Self, E> {
         let number = names.iter().find_map(|n| text.trim().strip_suffix(n));
         let Some(number) = number else {
@@ -74,7 +73,7 @@ impl EdgeLength {
     }
 }
 
-/// In cells.
+/// Edges are those of cells.
 impl<'de> Deserialize<'de> for EdgeLength {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         let wanted = "a length such as \"29 nm\" or a multiple of the cell such as \"0.01 cell\"";
@@ -83,7 +82,7 @@ impl<'de> Deserialize<'de> for EdgeLength {
     }
 }
 
-/// In voxels.
+/// Reads an [`EdgeLength`] whose edges are those of voxels.
 pub(super) fn in_voxels<'de, R: Deserializer<'de>>(reader: R) -> Result<EdgeLength, R::Error> {
     let wanted =
         "a length such as \"2.9 um\" or a multiple of the specimen's voxel such as \"2 voxels\"";
@@ -142,19 +141,19 @@ impl<'de> Deserialize<'de> for BodyVelocity {
     }
 }
 
-/// The alternative that a word names.
+/// A choice by its name.
 pub(super) fn choice<'de, R: Deserializer<'de>, C: Choice>(reader: R) -> Result<C, R::Error> {
     C::named(&String::deserialize(reader)?).map_err(Error::custom)
 }
 
-/// The same where a case may leave it out.
+/// An optional choice by its name.
 pub(super) fn some_choice<'de, R: Deserializer<'de>, C: Choice>(
     reader: R,
 ) -> Result<Option<C>, R::Error> {
     choice(reader).map(Some)
 }
 
-/// A text, where anything else is refused in words that say what is `wanted`.
+/// A string; the error on anything else names what is `wanted`.
 fn text<'de, R: Deserializer<'de>>(reader: R, wanted: &str) -> Result<String, R::Error> {
     match toml::Value::deserialize(reader)? {
         toml::Value::String(text) => Ok(text),

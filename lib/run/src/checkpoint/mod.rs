@@ -1,4 +1,4 @@
-//! Checkpoints: all that a run needs to go on bit by bit.
+//! Checkpoints: the state from which a run continues with the same bits.
 
 mod read;
 
@@ -14,22 +14,22 @@ use crate::history::Extent;
 
 pub(crate) use read::read;
 
-/// Number of the layout of what a run adds to the arrays of its scheme: raised by any change of it.
+/// Version of the layout of a run's own data in a checkpoint; raise it with any change.
 const RUN_FORMAT: u32 = 1;
 
-/// What a checkpoint must be of for a run to go on from it.
+/// Identity of a run and its build; a checkpoint must match it.
 #[derive(Debug)]
 pub(crate) struct Origin {
-    /// The case but for its Courant number, and the bond file.
+    /// Hashes of the case without its Courant number and of the bond file.
     pub(crate) identity: String,
-    /// The layout of its arrays.
+    /// Version of the checkpoint's layout, from [`format`].
     pub(crate) format: String,
-    /// The tool that writes it, with its version.
+    /// The tool and its version.
     pub(crate) by: Provenance,
 }
 
-/// The layout of the checkpoints of a scheme by this build: its number is raised by any change of the arrays that the
-/// scheme saves, or of what they mean.
+/// Version of the layout of a scheme's checkpoints in this build. Raise the number with any change of the arrays that the
+/// scheme saves, or of their meaning.
 pub(crate) fn format(scheme: SchemeName) -> String {
     let number = match scheme {
         SchemeName::Explicit => 1,
@@ -48,20 +48,20 @@ const HISTORY_HASH: &str = "history_hash";
 const LOST: &str = "lost";
 const ITERATIONS: &str = "iterations";
 
-/// A run as its checkpoint holds it; `S` is what is read of the scheme's state, or what writes it.
+/// Content of a checkpoint. `S` is the state of the scheme: as read, or as the pieces to be written.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Checkpoint<S = Saved> {
-    /// Where the run is.
+    /// Progress of the run.
     pub(crate) clock: Clock,
-    /// Which part of it was taken at which Courant number.
+    /// Courant numbers and the steps from which they held.
     pub(crate) courant: Vec<Courant>,
-    /// How far its history went.
+    /// Length and hash of the history.
     pub(crate) history: Extent,
     /// State of the scheme.
     pub(crate) saved: S,
 }
 
-/// The numbers of a clock as a checkpoint has them: its own, and those of its last step.
+/// The numbers of a clock in a checkpoint: its own, and those of its last step.
 fn numbers(clock: &mut Clock) -> ([&mut f64; 4], [&mut f64; 5]) {
     let own = [
         &mut clock.time_s,
@@ -69,7 +69,7 @@ fn numbers(clock: &mut Clock) -> ([&mut f64; 4], [&mut f64; 5]) {
         &mut clock.next_history_s,
         &mut clock.next_snapshot_s,
     ];
-    let last = &mut clock.last;
+    let last = &mut clock.last_step;
     let of_step = [
         &mut last.dt_s,
         &mut last.closing_speed,
@@ -80,8 +80,7 @@ fn numbers(clock: &mut Clock) -> ([&mut f64; 4], [&mut f64; 5]) {
     (own, of_step)
 }
 
-/// Writes the run folder's checkpoint, replacing the one before. What it counts on, history and
-/// snapshots, must be on the disk by then.
+/// Writes the checkpoint and replaces the one before. History and snapshots must be synced to the disk first.
 pub(crate) fn write(
     folder: &RunFolder,
     origin: &Origin,
@@ -101,8 +100,8 @@ pub(crate) fn write(
     header.set_attribute(ROW_MISSING, clock.row_missing);
     header.set_attribute(HISTORY_BYTES, history.bytes);
     header.set_attribute(HISTORY_HASH, history.hash);
-    header.set_attribute(LOST, clock.last.lost);
-    header.set_attribute(ITERATIONS, clock.last.iterations);
+    header.set_attribute(LOST, clock.last_step.lost);
+    header.set_attribute(ITERATIONS, clock.last_step.iterations);
     let (times, last) = numbers(&mut clock);
     let (times, last) = (times.map(|x| *x), last.map(|x| *x));
     let courant: Vec<f64> = (courant.iter())
@@ -125,9 +124,9 @@ pub(crate) fn write(
     folder.write_whole(CHECKPOINT, |out| draft.write_to(out))
 }
 
-/// The end of a sentence that says where the last checkpoint is.
+/// The end of a sentence, with the path of the last checkpoint.
 pub(crate) fn where_last(folder: &RunFolder) -> String {
-    let path = folder.place(CHECKPOINT);
+    let path = folder.path_of(CHECKPOINT);
     if path.exists() {
         format!(
             "; --resume goes on from the last good checkpoint, {}, at another integrator.cfl if wanted",
@@ -141,12 +140,12 @@ pub(crate) fn where_last(folder: &RunFolder) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::folder::tests::{by, held};
+    use crate::folder::tests::{by, test_folder};
 
-    /// It was said to have no array of some name.
+    /// The message names the builds, not a missing array.
     #[test]
     fn a_checkpoint_of_another_build_names_that_build() {
-        let (place, folder) = held();
+        let (place, folder) = test_folder();
         let of = |version: &str, format: &str| Origin {
             identity: "x".into(),
             format: format.into(),

@@ -7,8 +7,8 @@ use particle_file::ParticleFile;
 use super::*;
 use crate::failure::refused;
 
-/// Reads the run folder's checkpoint, if there is one; `changed` says what of the case is not as it was.
-/// Errors: a checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
+/// Reads the run folder's checkpoint, if there is one. `changed` lists the keys of the case that differ, for the message.
+/// Errors: a checkpoint that is corrupt, of another case or particle file, or of another build.
 pub(crate) fn read(
     folder: &Path,
     origin: &Origin,
@@ -34,7 +34,7 @@ pub(crate) fn read(
     content(&file).map(Some).map_err(bad)
 }
 
-/// Which build wrote a checkpoint that this one does not go on from.
+/// A clause on the build that wrote the checkpoint, if it is not this one.
 fn another_build(header: &Header, origin: &Origin) -> Option<String> {
     let here = &origin.by;
     let of = |tool: &str, version: &str, format: &str| {
@@ -52,7 +52,7 @@ fn another_build(header: &Header, origin: &Origin) -> Option<String> {
     })
 }
 
-/// What a checkpoint of this build holds.
+/// The content of a checkpoint of this build.
 fn content(file: &ParticleFile) -> Result<Checkpoint, String> {
     let header = file.header();
     let column = |name| file.column::<f64>(name).map_err(|e| e.to_string());
@@ -84,8 +84,8 @@ fn clock(header: &Header, times: &[f64], last: &[f64]) -> Result<Clock, String> 
         row_missing: attribute(header, ROW_MISSING)?,
         ..Clock::default()
     };
-    clock.last.lost = attribute(header, LOST)?;
-    clock.last.iterations = attribute(header, ITERATIONS)?;
+    clock.last_step.lost = attribute(header, LOST)?;
+    clock.last_step.iterations = attribute(header, ITERATIONS)?;
     let (own, of_step) = numbers(&mut clock);
     fill(own, times).ok_or("it has no whole clock")?;
     fill(of_step, last).ok_or("it has no whole last step")?;

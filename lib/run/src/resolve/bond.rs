@@ -9,8 +9,8 @@ use super::{Geometry, cells_along};
 use crate::case::Case;
 use crate::failure::{RunFailure, refused};
 
-/// Bytes that the scene takes for each byte of a bond file, before a scheme asks for more: its blocks
-/// here, and where liquid begins (121 MB of 885 million voxels: 240 MB).
+/// Memory of the scene per byte of the bond file, without the scheme: the blocks of the bodies and of the liquid (240 MB for
+/// a file of 121 MB with 885 million voxels).
 const MADE_OF_A_BYTE: u64 = 2;
 
 /// Exchanges y and the bond normal of a vector; its own inverse.
@@ -19,7 +19,7 @@ pub(crate) fn swap<T>(mut v: [T; 3], normal: Axis) -> [T; 3] {
     v
 }
 
-/// Errors: exit 2 when the file is no bond file or does not fit the case, exit 3 when it is corrupt.
+/// Errors: exit 2 if the file is no bond file or does not fit the case, exit 3 if it is corrupt.
 pub(super) fn geometry(
     case: &Case,
     dimensions: Dimensions,
@@ -102,7 +102,7 @@ pub(super) fn geometry(
     })
 }
 
-/// Bond normal of a bond file, and how far its upper adherend was moved away, m.
+/// Checks a bond file. Returns its bond normal, and the distance by which its upper adherend was moved away, m.
 fn checked(file: &ParticleFile) -> Result<(Axis, f64), RunFailure> {
     let header = file.header();
     if header.kind != Kind::Bond {
@@ -125,11 +125,10 @@ fn checked(file: &ParticleFile) -> Result<(Axis, f64), RunFailure> {
     Ok((normal, gap_m))
 }
 
-/// Refuses a box that is not that of the blocks. build-bondline puts its low side below the wood
-/// by less than a cell, and the scheme's grid fills it: a box of its own would be a grid of any
-/// size.
+/// Refuses a header whose box does not fit its blocks: the scheme's grid fills the box, so a forged one could ask for a grid
+/// of any size. build-bondline puts the low side of the box below the wood by less than a cell.
 fn box_of_its_blocks(header: &Header) -> Result<(), String> {
-    /// Voxels along the edge of a cell at most, and one for rounding.
+    /// Most voxels along the edge of a cell, plus one for rounding.
     const CELL: f64 = 65.0;
     let near = |a: f64, b: f64| (a - b).abs() <= CELL * header.voxel_m;
     let corner = |of: fn(f64, f64) -> f64, which: fn(&Block) -> [f64; 3]| -> [f64; 3] {
@@ -167,7 +166,7 @@ fn canonical(block: &Block, bits: BitsRef, normal: Axis) -> VoxelBlock {
     })
 }
 
-/// In plane strain a block is as deep as the one layer of cells.
+/// Makes a block as deep as the one layer of cells in plane strain.
 fn deepen(block: VoxelBlock, depth: Option<f64>) -> VoxelBlock {
     let Some(depth) = depth else {
         return block;
@@ -177,7 +176,7 @@ fn deepen(block: VoxelBlock, depth: Option<f64>) -> VoxelBlock {
     VoxelBlock::new(origin, voxel, block.dims(), block.bits().to_vec())
 }
 
-/// The same number of points in every adhesive voxel, on a regular lattice.
+/// A regular lattice of points in every adhesive voxel.
 fn seeds(
     case: &Case,
     block: &VoxelBlock,

@@ -1,8 +1,8 @@
-//! How far one block of voxels can come down before it lies on another.
+//! Clearance between two blocks of voxels along y.
 
 use physics::VoxelBlock;
 
-/// How far `upper` can come down before a solid voxel of it meets one of `lower`, m.
+/// Distance by which `upper` can move down until two solid voxels touch, m; `None` if they never do.
 pub(super) fn clearance(upper: &VoxelBlock, lower: &VoxelBlock, slack: f64) -> Option<f64> {
     let [nx, _, nz] = upper.dims();
     let mut least = f64::INFINITY;
@@ -21,7 +21,7 @@ pub(super) fn clearance(upper: &VoxelBlock, lower: &VoxelBlock, slack: f64) -> O
     least.is_finite().then_some(least)
 }
 
-/// Indices along `axis` of the voxels of `other` that voxel `index` of `block` shares a place with.
+/// Indices along `axis` of the voxels of `other` that overlap voxel `index` of `block`.
 fn columns(
     block: &VoxelBlock,
     index: usize,

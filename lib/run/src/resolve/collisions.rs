@@ -1,22 +1,21 @@
-//! Collisions: when rigid bodies would overlap one another, or a body its mirror image, so that the liquid between
-//! them would have no place left.
+//! Collisions of rigid bodies with one another or with their mirror images; liquid between them would have no place left.
 
 use std::fmt;
 
 use physics::{Boundary, Motion, RigidBody, Scene, VoxelBlock, norm};
 
 use super::clearance::clearance;
-use super::intervals::{Overlap, common};
+use super::intervals::{AxisOverlap, joint_overlaps};
 
-/// Part of a cell by which bodies may overlap by rounding.
+/// AxisOverlap due to rounding, cells.
 const ROUNDING: f64 = 1e-6;
 
-/// What a body collides with.
+/// The obstacle of a colliding body.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Obstacle<'a> {
     /// Another body.
     Body(&'a RigidBody),
-    /// A symmetry side, behind which its own image comes towards it: axis, and whether it is the upper side.
+    /// A symmetry side, from behind which the body's own image approaches: axis, and whether it is the upper side.
     Mirror(usize, bool),
 }
 
@@ -34,20 +33,20 @@ impl fmt::Display for Obstacle<'_> {
     }
 }
 
-/// A body and what it collides with.
+/// A collision of a body with an obstacle.
 #[derive(Debug)]
 pub(super) struct Collision<'a> {
     pub(super) body: &'a RigidBody,
     pub(super) with: Obstacle<'a>,
-    /// When, at full speed, s; before 0 where they have begun to run into each other.
+    /// Time at full speed, s; negative if the two already overlap slightly at the start.
     pub(super) time_s: f64,
-    /// Speed of the one against the other, m/s.
+    /// Relative speed, m/s.
     pub(super) speed: f64,
 }
 
-/// The first collision until `until_s` (s) of two bodies one of which, and not more, the clamp drives (`clamped`), or of
-/// two that it does not; or of such a body with a symmetry side.
-pub(super) fn first(scene: &Scene, clamped: bool, until_s: f64) -> Option<Collision<'_>> {
+/// The first collision until `until_s` (s). With `clamped`: of a body that the clamp drives with another one or a symmetry
+/// side; else among the bodies that the clamp does not drive, or of one of them with a side.
+pub(super) fn first_collision(scene: &Scene, clamped: bool, until_s: f64) -> Option<Collision<'_>> {
     let driven = |body: &RigidBody| body.motion == Motion::Clamped;
     let bodies = &scene.bodies;
     let pairs = (bodies.iter().enumerate())
@@ -59,8 +58,8 @@ pub(super) fn first(scene: &Scene, clamped: bool, until_s: f64) -> Option<Collis
     (pairs.chain(mirrored)).min_by(|a, b| a.time_s.total_cmp(&b.time_s))
 }
 
-/// When bodies `a` and `b` first overlap at their full speeds. Bodies that overlap from the start on purpose, as
-/// walls do, do not collide; those that have only begun to run into each other did so before the start.
+/// The first collision of `a` and `b` at full speed. Bodies that overlap from the start, such as walls, do not collide. Bodies
+/// that have only just begun to overlap collided before the start.
 fn with_body<'a>(
     scene: &Scene,
     a: &'a RigidBody,
@@ -73,11 +72,11 @@ fn with_body<'a>(
     let pairs = (a.blocks.iter()).flat_map(|x| b.blocks.iter().map(move |y| (x, y)));
     let time_s = pairs
         .filter_map(|(x, y)| {
-            let met = of_boxes(scene, x, y, v, until_s)?;
+            let met = first_overlap_of_boxes(scene, x, y, v, until_s)?;
             if !voxels(x) && !voxels(y) {
                 return Some(met);
             }
-            // Voxels are bodies of a bond, which move along y alone.
+            // Bodies of voxels come from a bond file and move along y only.
             let slack = ROUNDING * scene.grid.cell_m;
             match v {
                 [0.0, down, 0.0] if down < 0.0 => Some(clearance(x, y, slack)? / -down),
@@ -98,38 +97,38 @@ fn with_body<'a>(
     })
 }
 
-/// When the boxes around two blocks first overlap, the first moving at `v` (m/s) against the second.
-fn of_boxes(
+/// Time of the first overlap of the boxes around two blocks; the first moves at `v` (m/s) relative to the second.
+fn first_overlap_of_boxes(
     scene: &Scene,
     a: &VoxelBlock,
     b: &VoxelBlock,
     v: [f64; 3],
     until_s: f64,
 ) -> Option<f64> {
-    let along = |i| overlap(scene, i, a, b, v[i], ROUNDING * scene.grid.cell_m);
+    let along = |i| axis_overlap(scene, i, a, b, v[i], ROUNDING * scene.grid.cell_m);
     let axes = [along(0)?, along(1)?, along(2)?];
-    common(axes, until_s)
-        .find(|found| found.begin >= 0.0 || found.entering(&axes, scene.dimensions.axes()))
+    joint_overlaps(axes, until_s)
+        .find(|found| found.begin >= 0.0 || found.has_just_begun(&axes, scene.dimensions.axes()))
         .map(|found| found.begin)
 }
 
-/// When the boxes around two blocks overlap along `axis` by more than `slack` (m), the first moving at `v` (m/s) along it against
-/// the second.
-fn overlap(
+/// Times at which the boxes around two blocks overlap along `axis` by more than `slack` (m); the first moves at `v` (m/s)
+/// along it relative to the second.
+fn axis_overlap(
     scene: &Scene,
     axis: usize,
     a: &VoxelBlock,
     b: &VoxelBlock,
     v: f64,
     slack: f64,
-) -> Option<Overlap> {
+) -> Option<AxisOverlap> {
     let [a, b] = [a, b].map(|block| [block.origin()[axis], block.max()[axis]]);
     let length = scene.period(axis).unwrap_or(f64::INFINITY);
-    Overlap::of(a, b, v, length, slack)
+    AxisOverlap::of(a, b, v, length, slack)
 }
 
-/// When a body within the domain first comes to a symmetry side. One that lies across a side from the start is a
-/// wall or piston that goes through it.
+/// The first contact of a body within the domain with a symmetry side. A body that crosses the side from the start is a wall
+/// or a piston and does not collide.
 fn with_mirror<'a>(scene: &Scene, body: &'a RigidBody, until_s: f64) -> Option<Collision<'a>> {
     let v = scene.velocity(body.motion);
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
@@ -154,9 +153,9 @@ fn with_mirror<'a>(scene: &Scene, body: &'a RigidBody, until_s: f64) -> Option<C
         .min_by(|a, b| a.time_s.total_cmp(&b.time_s))
 }
 
-/// A body of given velocity that may meet the clamp's until `until_s`, which a pressure limit may hold anywhere on its way of at
-/// most `travel_m`: by the boxes around their blocks.
-pub(super) fn possible(
+/// A body of given velocity that may meet the clamp's body until `until_s` (s). A pressure limit may hold the clamp anywhere
+/// within `travel_m` (m), so the whole swept box counts.
+pub(super) fn may_meet_clamp(
     scene: &Scene,
     until_s: f64,
     travel_m: f64,
@@ -175,9 +174,9 @@ pub(super) fn possible(
             let [mut low, high] = [x.origin(), x.max()];
             low[1] -= way;
             let swept = VoxelBlock::solid_box(low, high);
-            let along = |axis| overlap(scene, axis, y, &swept, v[axis], slack);
+            let along = |axis| axis_overlap(scene, axis, y, &swept, v[axis], slack);
             let axes = along(0).zip(along(1)).zip(along(2));
-            axes.is_some_and(|((x, y), z)| common([x, y, z], until_s).next().is_some())
+            axes.is_some_and(|((x, y), z)| joint_overlaps([x, y, z], until_s).next().is_some())
         })
     })
 }
@@ -216,7 +215,7 @@ mod tests {
 
     #[track_caller]
     fn meet(scene: &Scene, until_us: f64, who: &str, time_us: f64) {
-        let met = first(scene, false, until_us * UM).unwrap();
+        let met = first_collision(scene, false, until_us * UM).unwrap();
         assert_eq!(format!("{} and {}", met.body.name, met.with), who);
         let time = met.time_s / UM;
         assert!((time - time_us).abs() < 1e-4, "{time}");
@@ -225,15 +224,15 @@ mod tests {
     const FLOOR: (&str, Motion, [f64; 4]) = ("floor", Motion::Fixed, [0.0, 0.0, 40.0, 2.0]);
     const POST: (&str, Motion, [f64; 4]) = ("post", Motion::Fixed, [30.0, 2.0, 32.0, 8.0]);
 
-    /// Only images one period away were looked at.
+    /// Periodic images further than one period away count too.
     #[test]
     fn a_bar_meets_a_post_in_the_period_in_which_it_has_come_down_to_it() {
         let bar = Motion::Constant([1.0, -0.05, 0.0]);
         let bar = ("bar", bar, [2.0, 12.0, 22.0, 14.0]);
-        // From 80 us on it is as low as the post, over which it is then from the second period on.
+        // The bar is as low as the post from 80 us on, in its third period, and passes over the post before.
         let over = scene(&[FLOOR, bar, POST]);
         meet(&over, 300.0, "bar and 'post'", 88.0);
-        assert!(first(&over, false, 87.0 * UM).is_none());
+        assert!(first_collision(&over, false, 87.0 * UM).is_none());
         meet(&scene(&[FLOOR, bar]), 300.0, "floor and 'bar'", 200.0);
     }
 
@@ -247,16 +246,16 @@ mod tests {
             let who = format!("block and the symmetry side at the {end} end of y");
             meet(&block(v, 5.0), 1e6, &who, time);
         }
-        // A piston through the side, and one that comes in.
-        assert!(first(&block(-1.0, -1.0), false, 1.0).is_none());
-        assert!(first(&block(-1.0, 20.0), false, 19.0 * UM).is_none());
-        // A plate goes along the floor for ever.
+        // A piston through the side, and one that enters through it.
+        assert!(first_collision(&block(-1.0, -1.0), false, 1.0).is_none());
+        assert!(first_collision(&block(-1.0, 20.0), false, 19.0 * UM).is_none());
+        // A plate slides along the floor for ever.
         let along = Motion::Constant([1.0, 0.0, 0.0]);
         let plate = ("plate", along, [0.0, 2.0, 40.0, 4.0]);
-        assert!(first(&scene(&[FLOOR, plate]), false, 1.0).is_none());
+        assert!(first_collision(&scene(&[FLOOR, plate]), false, 1.0).is_none());
     }
 
-    /// The clamp, anywhere on its way, and a body that comes round.
+    /// A body comes round through periodic sides while the clamp may be anywhere on its way.
     #[test]
     fn a_body_may_come_under_the_clamp_after_many_periods() {
         let top = ("top", Motion::Clamped, [30.0, 14.0, 34.0, 18.0]);
@@ -271,7 +270,7 @@ mod tests {
             scene
         };
         let within = |scene: &Scene, until: f64, travel: f64| {
-            possible(scene, until * UM, travel * UM, 1e-3 * UM).is_some()
+            may_meet_clamp(scene, until * UM, travel * UM, 1e-3 * UM).is_some()
         };
         // The bar is under the clamp from 26 to 32 and from 66 to 72 us; the clamp comes down to 12 um after 40 us at the earliest.
         let bar = bar([1.0, 0.0], 11.0);

@@ -1,67 +1,67 @@
-//! Times at which two boxes in uniform motion overlap, through periodic sides too.
+//! Times at which two boxes in uniform motion overlap, also through periodic sides.
 
 /// Times (s) at which two boxes overlap along one axis: from `begin` to `end`, and again after every `period`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Overlap {
+pub(super) struct AxisOverlap {
     begin: f64,
     end: f64,
-    /// Infinite where the axis has no periodic sides, or nothing moves along it.
+    /// Infinite without periodic sides or without motion along the axis.
     period: f64,
-    /// Speed of one box against the other, m/s.
+    /// Relative speed along the axis, m/s.
     speed: f64,
-    /// Longest overlap, m.
-    most: f64,
+    /// Largest overlap, m.
+    largest: f64,
 }
 
-/// One time at which boxes overlap along all axes.
+/// An interval of time in which boxes overlap along all axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Common {
-    /// When it begins, s; before 0 where boxes overlap from the start.
+pub(super) struct JointOverlap {
+    /// Begin, s; negative if the boxes overlap from the start.
     pub(super) begin: f64,
-    /// When it ends, s.
+    /// End, s.
     pub(super) end: f64,
-    /// The same along each axis.
+    /// The intervals of overlap along each axis, s.
     along: [(f64, f64); 3],
 }
 
-impl Overlap {
-    /// Of the intervals `a` and `b` (m) within a domain, the first moving at `v` (m/s) against the second. All repeats
-    /// after every `length` (m; infinite without periodic sides). Overlaps up to `slack` (m) do not count.
+impl AxisOverlap {
+    /// The times at which `a` and `b`, from low to high side (m), overlap; `a` moves at `v` (m/s) relative to `b`. The domain
+    /// repeats after `length` (m; infinite without periodic sides). Overlaps up to `slack` (m) do not count.
     pub(super) fn of(a: [f64; 2], b: [f64; 2], v: f64, length: f64, slack: f64) -> Option<Self> {
         let (below, above) = (b[0] + slack - a[1], b[1] - slack - a[0]);
-        let most = (a[1] - a[0]).min(b[1] - b[0]);
-        let always = |most| Self {
+        let largest = (a[1] - a[0]).min(b[1] - b[0]);
+        let always = |largest| Self {
             begin: f64::NEG_INFINITY,
             end: f64::INFINITY,
             period: f64::INFINITY,
             speed: 0.0,
-            most,
+            largest,
         };
         if v == 0.0 {
             let shared = a[1].min(b[1]) - a[0].max(b[0]);
             return (below < 0.0 && above > 0.0).then(|| always(shared));
         }
-        // One of them, or both, fill the period.
+        // Together they fill the period.
         if above - below >= length {
-            return Some(always(most));
+            return Some(always(largest));
         }
         (above > below).then(|| Self {
             begin: (below / v).min(above / v),
             end: (below / v).max(above / v),
             period: length / v.abs(),
             speed: v.abs(),
-            most,
+            largest,
         })
     }
 
-    /// The first begin and end of which the end is after `time`.
+    /// The first interval that ends after `time`, as begin and end.
     fn after(&self, time: f64) -> Option<(f64, f64)> {
         let shifted = |by: f64| (self.begin + by, self.end + by);
         if self.period.is_infinite() {
             return (self.end > time).then_some((self.begin, self.end));
         }
         let periods = ((time - self.end) / self.period).floor() + 1.0;
-        // The quotient may be rounded down to the last one that has ended.
+        // Rounding of the quotient may give the interval before, which has ended.
         let found = shifted(periods * self.period);
         Some(match found.1 > time {
             true => found,
@@ -69,17 +69,20 @@ impl Overlap {
         })
     }
 
-    /// Overlap (m) at time 0 of boxes that overlap along this axis in the `interval` that holds it.
-    fn now(&self, (begin, end): (f64, f64)) -> f64 {
+    /// AxisOverlap (m) at time 0, which lies in this interval of overlap.
+    fn at_start(&self, (begin, end): (f64, f64)) -> f64 {
         match self.speed {
-            0.0 => self.most,
-            speed => (-begin * speed).min(end * speed).min(self.most),
+            0.0 => self.largest,
+            speed => (-begin * speed).min(end * speed).min(self.largest),
         }
     }
 }
 
-/// The times until `until` (s) at which boxes overlap along all axes, one after the other.
-pub(super) fn common(axes: [Overlap; 3], until: f64) -> impl Iterator<Item = Common> {
+/// The intervals until `until` (s) in which boxes overlap along all axes, in order.
+pub(super) fn joint_overlaps(
+    axes: [AxisOverlap; 3],
+    until: f64,
+) -> impl Iterator<Item = JointOverlap> {
     let mut time = 0.0;
     std::iter::from_fn(move || {
         while time < until {
@@ -89,27 +92,27 @@ pub(super) fn common(axes: [Overlap; 3], until: f64) -> impl Iterator<Item = Com
             }
             let begin = along.iter().map(|a| a.0).fold(f64::NEG_INFINITY, f64::max);
             let end = along.iter().map(|a| a.1).fold(f64::INFINITY, f64::min);
-            // Before `begin` one axis keeps them apart; after `end` another does.
+            // Until `begin` one axis separates the boxes; after `end` another does.
             time = if begin < end { end } else { begin };
             if begin < end && begin < until {
-                return Some(Common { begin, end, along });
+                return Some(JointOverlap { begin, end, along });
             }
         }
         None
     })
 }
 
-impl Common {
-    /// Whether boxes that overlap from the start have only begun to run into each other: they are less deep in
-    /// each other along the axis by which they came than along any other of the first `count`.
-    pub(super) fn entering(&self, axes: &[Overlap; 3], count: usize) -> bool {
+impl JointOverlap {
+    /// Whether boxes that overlap from the start have only just begun to: along the axis on which they met last, they overlap
+    /// less than along any other of the first `count` axes.
+    pub(super) fn has_just_begun(&self, axes: &[AxisOverlap; 3], count: usize) -> bool {
         let came = (0..3).find(|&i| self.along[i].0 == self.begin);
         let Some(way) = came.filter(|_| self.begin.is_finite()) else {
             return false;
         };
         let depth = -self.begin * axes[way].speed;
         -self.begin <= self.end
-            && (0..count).all(|i| i == way || depth <= axes[i].now(self.along[i]))
+            && (0..count).all(|i| i == way || depth <= axes[i].at_start(self.along[i]))
     }
 }
 
@@ -121,18 +124,18 @@ mod tests {
 
     type Corners = ([f64; 3], [f64; 3]);
 
-    fn axes(a: Corners, b: Corners, v: [f64; 3], lengths: [f64; 3]) -> Option<[Overlap; 3]> {
+    fn axes(a: Corners, b: Corners, v: [f64; 3], lengths: [f64; 3]) -> Option<[AxisOverlap; 3]> {
         let along = |i: usize| {
             let [a, b] = [a, b].map(|(low, high)| [low[i], high[i]]);
-            Overlap::of(a, b, v[i], lengths[i], SLACK)
+            AxisOverlap::of(a, b, v[i], lengths[i], SLACK)
         };
         Some([along(0)?, along(1)?, along(2)?])
     }
 
     fn met(a: Corners, b: Corners, v: [f64; 3], lengths: [f64; 3]) -> Option<f64> {
         let axes = axes(a, b, v, lengths)?;
-        common(axes, 1e3)
-            .find(|found| found.begin >= 0.0 || found.entering(&axes, 2))
+        joint_overlaps(axes, 1e3)
+            .find(|found| found.begin >= 0.0 || found.has_just_begun(&axes, 2))
             .map(|found| found.begin)
     }
 
@@ -161,7 +164,7 @@ mod tests {
         }
     }
 
-    /// Images one by one: until 40 s a box goes over at most twelve periods.
+    /// Checked against all images one by one: in 40 s a box moves by at largest twelve periods.
     #[test]
     fn boxes_meet_through_periodic_sides_when_one_of_all_images_does() {
         const UNTIL: f64 = 40.0;
@@ -190,11 +193,11 @@ mod tests {
                     let off = |x: [f64; 3]| std::array::from_fn(|a| x[a] + by[a]);
                     let image = (off(b.0), off(b.1));
                     let axes = axes(a, image, v, [f64::INFINITY; 3])?;
-                    common(axes, UNTIL).next().map(|first| first.begin)
+                    joint_overlaps(axes, UNTIL).next().map(|first| first.begin)
                 })
                 .filter(|&begin| begin < UNTIL)
                 .reduce(f64::min);
-            let here = axes(a, b, v, lengths).and_then(|axes| common(axes, UNTIL).next());
+            let here = axes(a, b, v, lengths).and_then(|axes| joint_overlaps(axes, UNTIL).next());
             match (first, here.map(|first| first.begin)) {
                 (Some(first), Some(here)) => {
                     found += 1;
@@ -206,7 +209,7 @@ mod tests {
         assert!((200..400).contains(&found), "{found}");
     }
 
-    /// A box as long as a period is everywhere along it, and what overlaps on purpose at first may collide when it comes round.
+    /// A box as long as a period fills the axis. Boxes that overlap from the start may collide in a later period.
     #[test]
     fn boxes_meet_in_a_later_period() {
         let plate = ([0.0, 5.0, 0.0], [8.0, 6.0, 1.0]);

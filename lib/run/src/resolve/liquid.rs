@@ -9,7 +9,7 @@ use crate::case::{Adhesive, CureTable, WaterTable};
 use crate::failure::{RunFailure, refused};
 
 /// The liquid of `[adhesive]`.
-/// Errors: No viscosity or two, a table or a law out of range.
+/// Errors: no viscosity or more than one, a table or a law out of range.
 pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, RunFailure> {
     let density = adhesive.density.si();
     let water = adhesive.water.as_ref().map(|table| water(table, density));
@@ -117,7 +117,7 @@ fn cure(table: &CureTable) -> Result<Cure, RunFailure> {
     let heats = table.activation_energy.is_some() || table.flow_activation_energy.is_some();
     let reference = match (&table.temperature, table.reference_temperature) {
         (Some(points), Some(reference)) if heats && !points.is_empty() => reference.0,
-        // Any: nothing depends on it.
+        // Any value: nothing depends on it.
         (None, None) if !heats => 300.0,
         _ => {
             return refused(
@@ -137,7 +137,7 @@ fn cure(table: &CureTable) -> Result<Cure, RunFailure> {
     Cure::new(&law).map_err(|said| RunFailure::Usage(format!("[adhesive.cure] {said}")))
 }
 
-/// What `[adhesive.water]` says, of a liquid of `density` (kg/m3).
+/// The loss of water of `[adhesive.water]`, for a liquid of `density` (kg/m3).
 fn water(table: &WaterTable, density: f64) -> Result<Water, RunFailure> {
     let law = WaterLaw {
         uptake: table.uptake.si(),
@@ -151,7 +151,7 @@ fn water(table: &WaterTable, density: f64) -> Result<Water, RunFailure> {
     Water::new(law, density).map_err(|said| RunFailure::Usage(format!("[adhesive.water] {said}")))
 }
 
-/// Refuses walls for the water that no body is.
+/// Refuses names in `[adhesive.water] walls` that no body has.
 pub(super) fn check_walls(liquid: &Liquid, bodies: &[RigidBody]) -> Result<(), RunFailure> {
     let Some(water) = &liquid.water else {
         return Ok(());

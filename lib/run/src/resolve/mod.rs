@@ -17,11 +17,11 @@ use physics::{
     WallLaw,
 };
 
-use crate::case::{Case, ClampTable, Contact, StopRule};
+use crate::case::{Case, ClampTable, ContactTable, StopRule};
 use crate::failure::{RunFailure, refused};
 
 pub(crate) use bond::swap;
-pub(crate) use plausible::OVERLAP;
+pub(crate) use plausible::OVERLAP_CELLS;
 use seed::Seeds;
 
 /// A number of cells along an axis, rounded up.
@@ -35,31 +35,30 @@ fn cells_along(n: f64) -> Result<usize, RunFailure> {
     ))
 }
 
-/// A run resolved to SI with what the run loop needs beside the scene.
+/// A run resolved to SI: the scene, and what the time loop needs beside it.
 #[derive(Debug)]
 pub struct Setup {
     /// The scene; its points are made by [`Setup::points`].
     pub scene: Scene,
-    /// How much liquid it starts with.
+    /// Liquid at the start.
     pub liquid: Amount,
     seeds: Seeds,
     /// Latest end, s.
     pub time_limit_s: f64,
-    /// How far the clamp can travel before its body meets what is named, m.
+    /// Travel of the clamp until its body meets an obstacle, m, and the name of the obstacle.
     pub clamp_clearance: Option<(f64, String)>,
     /// Gap between the adherends at the start, m; `None` without a clamp.
     pub initial_gap_m: Option<f64>,
-    /// Duration that snapshots and history divide, s.
+    /// Duration over which snapshots and rows of the history are spread, s.
     pub nominal_duration_s: f64,
-    /// Time between rows of the history, s; 0 for a row a step.
+    /// Time between rows of the history, s; 0 for a row after every step.
     pub history_every_s: f64,
-    /// Bond normal of the files; the scene's own is y.
+    /// Bond normal in the files; in the scene it is y.
     pub normal: units::Axis,
 }
 
 impl Setup {
-    /// The liquid's material points, made one by one: millions of them need not stay in memory twice, and a
-    /// plan needs none.
+    /// The material points of the liquid, made one by one: a run need not hold millions of them twice, and a plan needs none.
     pub(crate) fn points(&self) -> impl Iterator<Item = Seed> {
         self.seeds.points()
     }
@@ -68,7 +67,7 @@ impl Setup {
 /// Low and high corner of a box, m.
 type Corners = ([f64; 3], [f64; 3]);
 
-/// Geometry of a scene: what differs between a bond file and `[[body]]` tables.
+/// Geometry of a scene, from a bond file or from `[[body]]` tables.
 struct Geometry {
     grid: physics::GridBox,
     seeds: Seeds,
@@ -79,7 +78,7 @@ struct Geometry {
     normal: units::Axis,
 }
 
-/// Resolves `case`, with the bond file where one is given.
+/// Resolves `case`, with its bond file if given.
 ///
 /// # Errors
 /// One sentence about keys that contradict each other or geometry that does not fit.
@@ -109,10 +108,14 @@ pub fn resolve(case: &Case, bond: Option<&ParticleFile>) -> Result<Setup, RunFai
         }
         None => primitives::geometry(case, dimensions)?,
     };
-    finish(case, dimensions, geometry)
+    resolve_geometry(case, dimensions, geometry)
 }
 
-fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, RunFailure> {
+fn resolve_geometry(
+    case: &Case,
+    dimensions: Dimensions,
+    geometry: Geometry,
+) -> Result<Setup, RunFailure> {
     let cell = geometry.grid.cell_m;
     let programme = match &case.clamp {
         Some(table) => press::programme(table, geometry.travel_m)?,
@@ -143,7 +146,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
     let liquid = geometry.seeds.amount().map_err(RunFailure::Usage)?;
     plausible::check(&scene, &liquid, time_limit_s)?;
     let initial_gap_m = scene.clamp.and(geometry.travel_m);
-    // The steps of a press programme follow the flow, from microseconds to hours: each has a row.
+    // Steps of a press programme last from microseconds to hours: each gets a row.
     let history_every_s = match (case.output.history_every, scene.programme.is_empty()) {
         (Some(every), _) => every.si(),
         (None, true) => 1e-3 * nominal,
@@ -211,8 +214,8 @@ fn stop(
                 return refused("stop = \"closed\" needs the clamp's travel: give [clamp] travel");
             };
             let nominal = travel_m / clamp.closing_speed;
-            // Under load control closure may never come (paper Fig. 5): twice the time at
-            // full speed is where the paper's own runs had stopped moving.
+            // Under load control the bond may never close (paper Fig. 5): the paper's runs had stopped moving by twice the time at
+            // full speed.
             let limit = table.time_limit.map_or(2.0 * nominal, |t| t.si());
             Ok((Stop::Closed { travel_m }, limit, nominal))
         }
@@ -232,7 +235,7 @@ fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], RunFai
     Ok(sides)
 }
 
-fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, RunFailure> {
+fn wall(contact: Option<&ContactTable>, cell: f64, walls: bool) -> Result<WallLaw, RunFailure> {
     let Some(contact) = contact else {
         return match walls {
             true => refused("the scene has rigid bodies: [contact] law is needed"),

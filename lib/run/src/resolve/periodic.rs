@@ -5,11 +5,11 @@ use physics::{Boundary, Dimensions, GridBox};
 use super::Corners;
 use crate::failure::{RunFailure, refused};
 
-/// Part of a cell that rounding may make of a length.
+/// Rounding of a length, cells.
 const ROUNDING: f64 = 1e-6;
 
-/// Refuses a domain from `min` to `max` (m) that periodic sides would not join, since it is no whole number of cells.
-pub(super) fn check(
+/// Refuses a domain from `min` to `max` (m) whose length between periodic sides is no whole number of cells.
+pub(super) fn check_whole_cells(
     grid: &GridBox,
     (min, max): Corners,
     boundary: [Boundary; 3],
@@ -25,9 +25,9 @@ pub(super) fn check(
     Ok(())
 }
 
-/// The parts within the domain of a box and its images: what of it lies beyond a periodic side comes in at the other
-/// one. A box as long as a period fills it.
-pub(super) fn inside(
+/// The parts of a box and its periodic images that lie within the domain: a part beyond a periodic side enters at the
+/// opposite one. A box as long as the period fills it.
+pub(super) fn parts_inside(
     box_m: Corners,
     grid: &GridBox,
     boundary: [Boundary; 3],
@@ -73,7 +73,7 @@ mod tests {
         };
         let boundary = [Boundary::Periodic, Boundary::Open, Boundary::Symmetry];
         let box_m = ([low, -3.0, 0.0], [high, 40.0, 1.0]);
-        (inside(box_m, &grid, boundary, Dimensions::Two).iter())
+        (parts_inside(box_m, &grid, boundary, Dimensions::Two).iter())
             .inspect(|(low, high)| assert_eq!([low[1], high[1]], [-3.0, 40.0]))
             .map(|(low, high)| [low[0], high[0]])
             .collect()
@@ -91,7 +91,7 @@ mod tests {
         for wide in [(2.0, 14.0), (-1.0, 11.0), (-50.0, 70.0), (2.0, 13.9999999)] {
             assert_eq!(parts(wide.0, wide.1), [[2.0, 14.0]]);
         }
-        // By a hair over a side: no part of a ten millionth of a cell.
+        // Rounding beyond a side makes no part of a ten millionth of a cell.
         assert_eq!(parts(8.0, 14.0000001), [[8.0, 14.0]]);
         assert_eq!(parts(1.9999999, 5.0), [[2.0, 5.0]]);
     }

@@ -1,4 +1,4 @@
-//! Scenes that no scheme can give a meaningful answer to, refused before they start.
+//! Checks that refuse scenes for which no scheme can give a meaningful result.
 
 use physics::{Amount, Clamp, Motion, Scene, Stop};
 
@@ -6,19 +6,19 @@ use super::collisions::{self, Obstacle};
 use crate::failure::{RunFailure, refused};
 use crate::verdict::MOST_PRESSURE;
 
-/// Cells by which bodies may come to overlap: far below what walls are resolved to, and some scenes
-/// let touching bodies move against each other only to tell their reactions apart.
-pub(crate) const OVERLAP: f64 = 0.02;
+/// Overlap of bodies that is accepted, cells. It is far below the resolution of walls, and some scenes move touching bodies
+/// against each other only to report their reactions separately.
+pub(crate) const OVERLAP_CELLS: f64 = 0.02;
 
-/// Periods that a body may go over periodic sides, within which collisions are looked for.
+/// Most periods that a body may travel through periodic sides, so that the search for collisions ends.
 const MOST_PERIODS: f64 = 1e6;
 
-/// Refuses a scene in which nothing is pressed, bodies would overlap, or speeds or weights are
-/// beyond what a nearly incompressible liquid can follow. It ends at `limit_s` (s) at the latest.
+/// Refuses a scene in which nothing is pressed, bodies would overlap, or speed or weight are too large for a nearly
+/// incompressible liquid. The run ends at `limit_s` (s) at the latest.
 pub(super) fn check(scene: &Scene, liquid: &Amount, limit_s: f64) -> Result<(), RunFailure> {
-    slower_than_sound(scene, liquid)?;
-    weight(scene)?;
-    periods(scene, limit_s)?;
+    check_speed(scene, liquid)?;
+    check_weight(scene)?;
+    check_periods(scene, limit_s)?;
     if let Some(clamp) = scene.clamp {
         if !scene.bodies.iter().any(|b| b.motion == Motion::Clamped) {
             return refused(
@@ -29,33 +29,33 @@ pub(super) fn check(scene: &Scene, liquid: &Amount, limit_s: f64) -> Result<(), 
             Stop::Closed { travel_m } => travel_m,
             Stop::Time(time) => time * clamp.closing_speed,
         };
-        reached(scene, liquid, travel_m)?;
-        clamp_is_clear(scene, clamp, travel_m, limit_s)?;
+        check_clamp_reaches_liquid(scene, liquid, travel_m)?;
+        check_clamp_clearance(scene, clamp, travel_m, limit_s)?;
     }
-    apart(scene, limit_s)
+    check_given_velocities(scene, limit_s)
 }
 
-/// Refuses a clamp that would travel (m) into another body.
-fn clamp_is_clear(
+/// Refuses a clamp that would run into another body within `travel_m` (m).
+fn check_clamp_clearance(
     scene: &Scene,
     clamp: Clamp,
     travel_m: f64,
     limit_s: f64,
 ) -> Result<(), RunFailure> {
-    let slack = OVERLAP * scene.grid.cell_m;
+    let slack = OVERLAP_CELLS * scene.grid.cell_m;
     if clamp.max_pressure.is_some() {
         let most_m = match scene.stop {
             Stop::Closed { travel_m } => travel_m,
             Stop::Time(_) => f64::INFINITY,
         };
-        if let Some(other) = collisions::possible(scene, limit_s, most_m, slack) {
+        if let Some(other) = collisions::may_meet_clamp(scene, limit_s, most_m, slack) {
             return refused(format!(
                 "'{}' of given velocity may meet the clamp's body, whose way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
                 other.name
             ));
         }
     }
-    // Where pressure may stop the clamp before, the run itself looks at its travel.
+    // If a pressure limit may stop the clamp first, the run checks its travel at each step.
     let certain = matches!(scene.stop, Stop::Closed { .. }) || clamp.max_pressure.is_none();
     match clamp_clearance(scene, limit_s) {
         Some((clearance_m, other))
@@ -71,15 +71,15 @@ fn clamp_is_clear(
     }
 }
 
-/// How far the clamp can travel until `limit_s` (s) before its body meets something, m, and what that is.
+/// Travel of the clamp until its body meets an obstacle before `limit_s` (s), m, and the name of the obstacle.
 pub(super) fn clamp_clearance(scene: &Scene, limit_s: f64) -> Option<(f64, String)> {
-    let collision = collisions::first(scene, true, limit_s)?;
+    let collision = collisions::first_collision(scene, true, limit_s)?;
     let travel_m = collision.time_s * scene.clamp?.closing_speed;
     Some((travel_m, collision.with.to_string()))
 }
 
-/// Refuses bodies that go over more periods than collisions can be looked for in.
-fn periods(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
+/// Refuses bodies that travel through more than [`MOST_PERIODS`].
+fn check_periods(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
     for body in &scene.bodies {
         let v = scene.velocity(body.motion);
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
@@ -95,7 +95,7 @@ fn periods(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
     Ok(())
 }
 
-fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), RunFailure> {
+fn check_speed(scene: &Scene, liquid: &Amount) -> Result<(), RunFailure> {
     let (speed, sound) = (scene.speed_with(liquid), scene.liquid.sound_speed());
     if speed <= sound {
         return Ok(());
@@ -113,8 +113,8 @@ fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), RunFailure> {
     ))
 }
 
-/// Pressure under the weight of a domain full of liquid against what Tait's law holds for.
-fn weight(scene: &Scene) -> Result<(), RunFailure> {
+/// Refuses gravity under which a domain full of liquid exceeds the pressure range of Tait's law.
+fn check_weight(scene: &Scene) -> Result<(), RunFailure> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
     let pressure: f64 = (0..3)
         .map(|a| scene.liquid.density * scene.gravity[a].abs() * (high[a] - low[a]))
@@ -128,9 +128,12 @@ fn weight(scene: &Scene) -> Result<(), RunFailure> {
     ))
 }
 
-/// A clamp whose body passes no place near liquid presses nothing. Liquid that moves of itself may
-/// yet come to it.
-fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), RunFailure> {
+/// Refuses a clamp whose body never comes near liquid. Scenes with other motion are accepted: liquid may come to the clamp.
+fn check_clamp_reaches_liquid(
+    scene: &Scene,
+    liquid: &Amount,
+    travel_m: f64,
+) -> Result<(), RunFailure> {
     let moved = scene
         .bodies
         .iter()
@@ -155,7 +158,7 @@ fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), RunFailu
 }
 
 /// Refuses bodies of given velocities that would collide before the end.
-fn apart(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
+fn check_given_velocities(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
     let end_s = match (scene.stop, scene.clamp) {
         (Stop::Closed { travel_m }, Some(clamp))
             if scene.programme.is_empty() && clamp.max_pressure.is_none() =>
@@ -164,10 +167,10 @@ fn apart(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
         }
         _ => limit_s,
     };
-    let Some(met) = collisions::first(scene, false, end_s) else {
+    let Some(met) = collisions::first_collision(scene, false, end_s) else {
         return Ok(());
     };
-    if met.speed * (end_s - met.time_s) <= OVERLAP * scene.grid.cell_m {
+    if met.speed * (end_s - met.time_s) <= OVERLAP_CELLS * scene.grid.cell_m {
         return Ok(());
     }
     let (name, from_s) = (&met.body.name, met.time_s.max(0.0));

@@ -1,4 +1,4 @@
-//! The stages of a press programme, resolved to SI and held against one another.
+//! The stages of a press programme, resolved to SI and checked against one another.
 
 use physics::{Choice, Clamp, Press, PressStage};
 
@@ -6,11 +6,11 @@ use crate::case::{ClampTable, StageTable};
 use crate::failure::{RunFailure, refused};
 use crate::summary;
 
-/// Duration of an approach without one over that of all its way at full speed: it ends before, closed.
+/// Default duration of an approach, over the time in which the clamp closes at full speed: it ends by closure before.
 const APPROACH: f64 = 2.0;
 
-/// The stages of a programme for a clamp that can travel `travel_m` (m); none of a clamp without.
-/// Errors: Keys of a clamp without stages beside them, and stages that contradict themselves or one another.
+/// The stages of a programme for a clamp that can travel `travel_m` (m); empty for a clamp without a programme.
+/// Errors: keys of a clamp without stages, and stages that contradict themselves or one another.
 pub(super) fn programme(
     table: &ClampTable,
     travel_m: Option<f64>,
@@ -31,7 +31,7 @@ pub(super) fn programme(
         ));
     }
     let Some(room_m) = travel_m else {
-        return refused("[[clamp.stage]] needs the way that the clamp has: give [clamp] travel");
+        return refused("[[clamp.stage]] needs the clamp's travel: give [clamp] travel");
     };
     let mut stages: Vec<PressStage> = Vec::new();
     for (index, stage) in table.stage.iter().enumerate() {
@@ -47,7 +47,7 @@ pub(super) fn programme(
     Ok(stages)
 }
 
-/// The clamp of a programme: its largest speed and pressure.
+/// The clamp of a programme, with its largest speed and pressure.
 pub(super) fn clamp(stages: &[PressStage]) -> Clamp {
     let speeds = stages.iter().map(|stage| stage.speed);
     let pressures = stages.iter().filter_map(|stage| stage.pressure);
@@ -58,7 +58,7 @@ pub(super) fn clamp(stages: &[PressStage]) -> Clamp {
     }
 }
 
-/// A stage after the one `before`; an error is a sentence about it.
+/// Resolves a stage that follows the stage `before`.
 fn resolved(
     table: &StageTable,
     before: Option<&PressStage>,
@@ -94,7 +94,7 @@ fn resolved(
     })
 }
 
-/// Refuses keys that a kind of stage has no use for.
+/// Refuses keys that this kind of stage does not use.
 fn stray(table: &StageTable) -> Result<(), String> {
     let kind = table.kind;
     if table.contact && kind != Press::Approach {

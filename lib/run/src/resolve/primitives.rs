@@ -1,10 +1,10 @@
-//! Scenes described by `[[body]]` tables: the verification cases.
+//! Scenes from `[[body]]` tables: the verification cases.
 
 use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::{Lattice, Seeds};
 use super::{Corners, Geometry, boundary, cells_along, periodic};
-use crate::case::{Body, BodyVelocity, BoxCorners, Case, EdgeLength, MaterialName};
+use crate::case::{BodyTable, BodyVelocity, BoxCorners, Case, EdgeLength, MaterialName};
 use crate::failure::{RunFailure, refused};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, RunFailure> {
@@ -17,7 +17,7 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     let boundary = boundary(case, dimensions)?;
     let domain = domain(case, depth)?;
     let grid = grid(domain, cell)?;
-    periodic::check(&grid, domain, boundary)?;
+    periodic::check_whole_cells(&grid, domain, boundary)?;
     let mut lattices = Vec::new();
     let mut bodies: Vec<RigidBody> = Vec::new();
     let mut filled: Vec<(usize, Corners)> = Vec::new();
@@ -47,7 +47,7 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
                 lattices.push(lattice);
             }
             MaterialName::Rigid => {
-                let parts = periodic::inside((min, max), &grid, boundary, dimensions);
+                let parts = periodic::parts_inside((min, max), &grid, boundary, dimensions);
                 add_rigid(&mut bodies, body, parts, case.clamp.is_some())?;
             }
         }
@@ -66,7 +66,7 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     })
 }
 
-/// Whether two boxes share more than rounding makes of a common face.
+/// Whether two boxes overlap by more than the rounding of a common face.
 fn overlap(a: &Corners, b: &Corners) -> bool {
     (0..3).all(|i| {
         let shared = a.1[i].min(b.1[i]) - a.0[i].max(b.0[i]);
@@ -74,10 +74,10 @@ fn overlap(a: &Corners, b: &Corners) -> bool {
     })
 }
 
-/// Bodies of one name and motion become one body, as one piece of wood is.
+/// Adds a rigid body, or extends the body of the same name and motion.
 fn add_rigid(
     bodies: &mut Vec<RigidBody>,
-    body: &Body,
+    body: &BodyTable,
     parts: Vec<Corners>,
     clamped: bool,
 ) -> Result<(), RunFailure> {
@@ -120,7 +120,7 @@ fn corners(corners: &BoxCorners, depth: Option<f64>) -> Result<Corners, String> 
     }
 }
 
-/// The domain as given, or the box around all bodies.
+/// The given domain, or the box around all bodies.
 fn domain(case: &Case, depth: Option<f64>) -> Result<Corners, RunFailure> {
     if let Some(domain) = &case.grid.domain {
         return corners(domain, depth)

@@ -2,11 +2,10 @@
 
 use physics::{Amount, Seed, VoxelBlock, norm};
 
-/// Largest number of material points a run accepts: beyond it the request is a mistake.
+/// Most material points accepted; more are a mistake in the case.
 const MOST_POINTS: u64 = 2_000_000_000;
 
-/// A regular lattice of points that fills a box with a spacing as near to the one wanted as
-/// divides it.
+/// A regular lattice of points that fills a box. Its spacing divides the box and is the nearest to the wanted one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
     low: [f64; 3],
@@ -16,7 +15,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// Fills `min`..`max` (m); in plane strain one layer at `depth / 2`.
+    /// Fills `min`..`max` (m); in plane strain with one layer at half the depth.
     pub(super) fn new(
         min: [f64; 3],
         max: [f64; 3],
@@ -73,12 +72,12 @@ impl Lattice {
     }
 }
 
-/// Where the liquid is at the start.
+/// Place of the liquid at the start.
 #[derive(Debug)]
 pub(super) enum Seeds {
     /// In boxes.
     Boxes(Vec<Lattice>),
-    /// In the solid voxels of a block, the same lattice in each.
+    /// In the solid voxels of a block, with the same lattice in each.
     Voxels {
         block: VoxelBlock,
         spacing: f64,
@@ -87,8 +86,8 @@ pub(super) enum Seeds {
 }
 
 impl Seeds {
-    /// How much liquid it is.
-    /// Errors: a sentence when there is none or more than any run takes.
+    /// The amount of liquid.
+    /// Errors: no liquid, or more than [`MOST_POINTS`].
     pub(super) fn amount(&self) -> Result<Amount, String> {
         let amount =
             (self.lattices()).fold(Amount::default(), |sum, lattice| sum.and(lattice.amount()));
@@ -113,7 +112,7 @@ impl Seeds {
                 block,
                 spacing,
                 plane_strain_depth,
-            } => Box::new(solid(block).map(|index| {
+            } => Box::new(solid_voxels(block).map(|index| {
                 let min: [f64; 3] =
                     std::array::from_fn(|a| block.origin()[a] + index[a] as f64 * block.voxel()[a]);
                 let max = std::array::from_fn(|a| min[a] + block.voxel()[a]);
@@ -124,7 +123,7 @@ impl Seeds {
 }
 
 /// The solid voxels of a block.
-fn solid(block: &VoxelBlock) -> impl Iterator<Item = [usize; 3]> {
+fn solid_voxels(block: &VoxelBlock) -> impl Iterator<Item = [usize; 3]> {
     let [nx, ny, nz] = block.dims();
     let rows = (0..nz).flat_map(move |k| (0..ny).map(move |j| [j, k]));
     rows.flat_map(move |[j, k]| {

@@ -1,10 +1,10 @@
-//! Whether a run's results can be relied on: what is looked at while it runs, and the judgement of
-//! its last state. Exit status 0 is a claim that all of it holds.
+//! Whether a run's results are sound: checks during the run, and the verdict on its last state. Exit status 0 claims that
+//! all of them hold.
 //!
-//! The bounds, and why they lie there, are in docs/verdicts.md.
+//! docs/verdicts.md lists the bounds and their reasons.
 
-mod course;
-mod end;
+mod checks;
+mod judge;
 
 use std::fs;
 use std::path::Path;
@@ -15,15 +15,15 @@ use serde::{Deserialize, Serialize};
 use crate::failure::RunFailure;
 use crate::folder;
 
-pub(crate) use course::{MOST_PRESSURE, state, step};
-pub(crate) use end::judge;
+pub(crate) use checks::{MOST_PRESSURE, check_state, check_step};
+pub(crate) use judge::judge;
 
 /// Whether the last state of a run is sound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// Whether nothing speaks against it.
+    /// Whether there is no objection.
     pub sound: bool,
-    /// What does, a clause each.
+    /// The objections, a clause each.
     pub reasons: Vec<String>,
 }
 
@@ -35,16 +35,16 @@ impl Verdict {
         }
     }
 
-    /// This one, and what the scheme says against its results.
+    /// This verdict with the scheme's own objection, if any.
     pub(crate) fn and(mut self, objection: Option<String>) -> Self {
         self.reasons.extend(objection);
         Self::because(self.reasons)
     }
 
-    /// That of the run that ended in `folder`.
+    /// The verdict on the run that ended in `folder`.
     ///
     /// # Errors
-    /// [`RunFailure::Data`] where its summary does not say.
+    /// [`RunFailure::Data`] if its summary has no verdict.
     pub fn of_ended(folder: &Path) -> Result<Self, RunFailure> {
         let read = || {
             let text = fs::read_to_string(folder.join(folder::SUMMARY)).ok()?;
@@ -59,7 +59,7 @@ impl Verdict {
         })
     }
 
-    /// What is wrong, as a sentence; nothing of a sound state.
+    /// The objections as a sentence; `None` for a sound state.
     pub fn objection(&self) -> Option<String> {
         (!self.sound).then(|| {
             format!(
@@ -70,7 +70,7 @@ impl Verdict {
     }
 }
 
-/// What is wrong with liquid of this largest speed (m/s), if it is too fast for any scheme here.
+/// The objection to liquid with this largest speed (m/s), if it exceeds the speed of sound.
 fn faster_than_sound(scene: &Scene, speed: f64) -> Option<String> {
     let sound = scene.liquid.sound_speed();
     (speed > sound).then(|| {

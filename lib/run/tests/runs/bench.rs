@@ -6,11 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use particle_file::{BitGrid, Block, Draft, Header, Material, Provenance};
-use run::{Ahead, Mode, Request, RunFailure, Summary};
+use run::{Mode, PossibleEnd, Request, RunFailure, Summary};
 use tempfile::TempDir;
 
-/// A case of cells of `cell` in a scene in plane strain within `corners` (um), or of a bond; liquid of 1.3 Pa s between
-/// `tables`.
+/// A case with cells of `cell`: a plane-strain scene within `corners` (um), or a bond without `corners`. The liquid has
+/// 1.3 Pa s; `tables` are the other tables.
 pub fn case(cell: &str, corners: Option<[i32; 4]>, tables: &str) -> String {
     let domain = corners.map_or(String::new(), |corners| {
         format!("dimensions = 2\ndomain = {}\n", corners_of(corners))
@@ -55,7 +55,7 @@ pub fn plates(wide: i32, gap: i32, drop: i32, tables: &str) -> String {
     case("2 um", Some([0, 0, wide, 30]), &tables.concat())
 }
 
-/// Of a run to its end.
+/// Number of steps that lets a run reach its end.
 pub const END: usize = usize::MAX;
 pub const PLAIN: Mode = Mode {
     resume: false,
@@ -71,7 +71,7 @@ pub const OVERWRITE: Mode = Mode {
     ..PLAIN
 };
 
-/// A folder with a case, and with a bond where a test puts `bond.mpts` there.
+/// A folder with a case, and with a bond if a test puts `bond.mpts` there.
 pub struct Bench(TempDir);
 
 impl Bench {
@@ -81,7 +81,7 @@ impl Bench {
         bench
     }
 
-    /// Liquid between two plates; a row of the history and a snapshot now and then.
+    /// Liquid between two plates, with some rows of the history and snapshots.
     pub fn new(integrator: &str, stop: &str, every: &str) -> Self {
         let tables = format!(
             r#"[clamp]
@@ -119,7 +119,7 @@ snapshots = 3"#
         fs::remove_file(self.path(name)).unwrap();
     }
 
-    /// Puts a bond of this header there: wood below, wood above and adhesive, each from a height (m) along the normal on.
+    /// Writes `bond.mpts` with this header: wood below, wood above and adhesive, each from a height (m) along the normal on.
     pub fn put_bond(&self, header: Header, parts: [(f64, BitGrid); 3]) {
         let names = [
             ("wood-bottom", Material::Rigid),
@@ -150,7 +150,7 @@ snapshots = 3"#
         self.read(changes).unwrap_err().to_string()
     }
 
-    /// The plan with single blanks.
+    /// The plan with single spaces.
     pub fn plan(&self, changes: &[&str]) -> Result<String, RunFailure> {
         let plan = self.read(changes)?.explain()?;
         let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -178,7 +178,7 @@ snapshots = 3"#
         folder: &str,
         mode: Mode,
         stop: &dyn Fn() -> bool,
-        progress: &mut dyn FnMut(&[Ahead], String),
+        progress: &mut dyn FnMut(&[PossibleEnd], String),
         changes: &[&str],
     ) -> Result<Option<Summary>, RunFailure> {
         let by = Provenance {
@@ -186,19 +186,19 @@ snapshots = 3"#
             version: "test".into(),
             ..Provenance::default()
         };
-        // With `resume` it says so where it does not go on.
+        // With `resume`, a warning says if the run does not continue.
         let warn = |said: String| assert!(mode.resume && said.contains(" starts"), "{said}");
         let request = self.read(changes)?;
         request.execute(&self.path(folder), mode, by, stop, progress, &warn)
     }
 
-    /// A run to its end, or stopped on the way, which must not fail.
+    /// A run that must not fail, to its end or stopped before.
     pub fn ran(&self, folder: &str, mode: Mode, steps: usize) -> Summary {
         let ended = self.run(folder, mode, steps, &[]).unwrap();
         ended.expect("a run that has not ended")
     }
 
-    /// That the run in `run` is refused, in these words.
+    /// Asserts that the run in `run` is refused in these words.
     #[track_caller]
     pub fn refuses(&self, mode: Mode, changes: &[&str], words: &[&str]) {
         let said = self.run("run", mode, END, changes).unwrap_err();
@@ -220,7 +220,7 @@ snapshots = 3"#
         text.iter().map(|number| number.parse().unwrap()).collect()
     }
 
-    /// Everything in the run folder `run` by name.
+    /// All entries of the run folder `run` by name.
     pub fn everything(&self) -> BTreeMap<String, Vec<u8>> {
         everything(&self.path("run"))
     }
@@ -233,7 +233,7 @@ pub fn has(text: &str, parts: &[&str]) {
     }
 }
 
-/// The files of a run folder by name. The summary has the costs of the run and is left out.
+/// The files of a run folder by name, without the summary, which holds the cost of the run.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = everything(folder);
     files.remove("summary.json");

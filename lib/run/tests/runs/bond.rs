@@ -1,5 +1,4 @@
-//! A scene from a bond file: what is read of it, turned to the scene's axes and made of it, against
-//! numbers worked out by hand, and what of it is refused.
+//! Scenes from a bond file, against numbers worked out by hand, and bond files that are refused.
 
 use particle_file::{BitGrid, Header, Kind, ParticleFile};
 use run::RunFailure;
@@ -8,7 +7,7 @@ use crate::bench::{Bench, END, PLAIN, case, has};
 
 /// Edge of a voxel, m.
 const VOXEL: f64 = 2e-6;
-/// How far the upper adherend was moved away, m.
+/// Distance by which the upper adherend was moved away, m.
 const GAP: f64 = 5e-6;
 
 const TABLES: &str = r#"[contact]
@@ -20,8 +19,8 @@ stop = "closed"
 scheme = "implicit"
 "#;
 
-/// A bond along z of 4 x `wide` voxels: wood three voxels thick with a pit of two, adhesive of two
-/// layers, wood of two. `change` has the last word on the header.
+/// A bond along z of 4 x `wide` voxels: wood three voxels thick with a pit two deep, two layers of adhesive, and wood two
+/// voxels thick. `change` edits the finished header.
 fn bench(wide: usize, change: impl FnOnce(&mut Header)) -> Bench {
     let bench = Bench::with(&case("1 um", None, TABLES));
     let gap_voxels = GAP / VOXEL;
@@ -59,7 +58,7 @@ fn the_bond_normal_is_turned_to_y_and_every_adhesive_voxel_filled() {
     has(&bench.plan(&changes).unwrap(), &lines);
 }
 
-/// A case that names voxels fits any specimen.
+/// A case with cells in voxels fits any specimen.
 #[test]
 fn cells_may_be_voxels_of_the_bond() {
     let bench = bench(8, |_| {});
@@ -85,7 +84,7 @@ fn plane_strain_is_one_voxel_thick_and_one_cell_deep() {
     has(&plan.unwrap(), &lines);
 }
 
-/// A state is written in the axes of its bond file, with the upper wood where it is.
+/// A state is written in the axes of its bond file, with the upper adherend at its current place.
 #[test]
 fn states_are_written_in_the_axes_of_the_bond() {
     let bench = bench(1, |_| {});
@@ -105,7 +104,7 @@ fn states_are_written_in_the_axes_of_the_bond() {
     let (low, high) = (places.iter()).fold((f32::MAX, f32::MIN), |(low, high), at| {
         (low.min(at[2]), high.max(at[2]))
     });
-    // Points are the middles of voxels with liquid, of rows that share the gap from 6 um to the upper wood.
+    // Points are the centres of liquid voxels, in rows between 6 um and the upper adherend.
     assert!(low > 6e-6 && high < 10.7e-6, "{low} to {high}");
 }
 

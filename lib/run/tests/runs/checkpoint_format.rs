@@ -1,11 +1,11 @@
-//! The layout of checkpoints by the number of its format.
+//! The layout of checkpoints against the version of their format.
 
 use particle_file::ParticleFile;
 
 use crate::bench::{Bench, RESUME};
 
-/// Attributes and arrays of the checkpoint of a run stopped after four steps: name, type and, of arrays whose length does
-/// not follow the liquid, number of rows.
+/// Format and layout of the checkpoint of a run stopped after four steps: attributes, and arrays with type and, if their
+/// length does not depend on the liquid, number of rows.
 fn layout(bench: &Bench, changes: &[&str]) -> (String, String) {
     let stopped = bench.run("run", RESUME, 4, changes);
     assert_eq!(stopped.unwrap().unwrap().end, run::End::Interrupted);
@@ -23,7 +23,7 @@ fn layout(bench: &Bench, changes: &[&str]) -> (String, String) {
     (format.to_owned(), names.join(", "))
 }
 
-/// Liquid with all that the implicit scheme keeps an account of.
+/// Liquid with air, cure and loss of water, so that the checkpoint has all arrays of the implicit scheme.
 const IMPLICIT: &str = r#"scheme = "implicit"
 cfl = 0.05
 [air]
@@ -40,8 +40,8 @@ viscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]"#;
 const RUN: &str = "identity, checkpoint_format, snapshots, row_missing, history_bytes, history_hash, lost, iterations, \
 run.clock F64 4, run.last_step F64 5, run.courant F64 2";
 
-/// Where this fails the arrays of a checkpoint have changed: raise the number of the scheme, or `RUN_FORMAT`, in `run/src/checkpoint`, and
-/// write the new layout here, so that no build goes on from what it misreads.
+/// If this fails, the arrays of a checkpoint have changed: raise the number of the scheme, or `RUN_FORMAT`, in
+/// `run/src/checkpoint`, and write the new layout here. Else a build could misread the checkpoint of another.
 #[test]
 fn a_format_has_one_layout() {
     let settings = [

@@ -1,7 +1,7 @@
-//! A run as its folder tells it: a drop in free fall, whose speed, energy and place are known.
+//! The files of a run, for a drop in free fall: speed, energy and place are known.
 
 use particle_file::ParticleFile;
-use run::{Ahead, End, Summary};
+use run::{End, PossibleEnd, Summary};
 
 use crate::bench::{Bench, PLAIN, has};
 
@@ -37,12 +37,12 @@ history_every = "0.1 us"
 
 fn fall(bench: &Bench) -> Summary {
     let mut fractions = Vec::new();
-    let mut progress = |ends: &[Ahead], said: String| {
+    let mut progress = |ends: &[PossibleEnd], said: String| {
         let &[("of the time, {} left", fraction)] = ends else {
             panic!("{ends:?}");
         };
         let time: f64 = said.split(' ').next().unwrap().parse().unwrap();
-        // Told to a thousandth of the run's 1 us.
+        // The time is given to a thousandth of the run's 1 us.
         assert!((fraction - time).abs() < 6e-4, "{fraction}: {said}");
         fractions.push(fraction);
     };
@@ -60,7 +60,7 @@ fn is_near(found: f64, expected: f64, relative: f64) {
     assert!(off < relative, "{found} for {expected}");
 }
 
-/// `error` is relative to the last speed; that of the implicit scheme is made in its first step.
+/// `error` is relative to the last speed; the implicit scheme makes it in its first step.
 fn a_drop_falls(scheme: &str, error: f64) {
     let bench = Bench::with(&CASE.replace("SCHEME", scheme));
     let summary = fall(&bench);
@@ -80,7 +80,7 @@ fn a_drop_falls(scheme: &str, error: f64) {
     assert_eq!(steps[0], 1.0, "a row after the first step");
     assert_eq!(*steps.last().unwrap(), summary.steps as f64);
     is_near(*times.last().unwrap(), TIME, 1e-9);
-    // A row for every tenth of the time, after the first step past it, and one for the end.
+    // A row after each tenth of the time, and one at the end.
     let longest = bench.numbers("dt_s").into_iter().fold(0.0, f64::max);
     let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);
     let widest = gaps.fold(0.0, f64::max);
@@ -99,7 +99,7 @@ fn a_drop_falls(scheme: &str, error: f64) {
 
     let run = bench.path("run");
     assert!(!run.join("checkpoint.mpts").exists(), "nothing to continue");
-    // Due at the start and after each quarter of the time.
+    // Snapshots are due at the start and after each quarter of the time.
     for i in 0..4 {
         let snapshot = ParticleFile::open(run.join(format!("snapshots/{i:04}.mpts"))).unwrap();
         let (time, due) = (snapshot.header().time_s, 0.25 * f64::from(i) * TIME);
@@ -114,8 +114,8 @@ fn a_drop_falls(scheme: &str, error: f64) {
     end.check().unwrap();
 }
 
-/// The centre of the drop has fallen by g t^2 / 2 from y = 14 um; a step of `longest` that moves
-/// at its last speed adds half of what it speeds up by.
+/// The centre of the drop has fallen by g t^2 / 2 from y = 14 um. Steps of up to `longest` move at their last speed, which
+/// adds half of the change of speed in a step.
 fn assert_falls(state: &ParticleFile, error: f64, longest: f64) {
     let (places, time) = (state.vectors("position").unwrap(), state.header().time_s);
     let volumes = state.column::<f32>("volume").unwrap();
@@ -143,6 +143,6 @@ fn a_drop_falls_by_the_explicit_scheme() {
 
 #[test]
 fn a_drop_falls_by_the_implicit_scheme() {
-    // A step that was cut short after it was solved kept the speed of the longer one: 3 %.
+    // A step cut short after its solution keeps the speed of the longer step: 3 %.
     a_drop_falls("implicit", 0.03);
 }

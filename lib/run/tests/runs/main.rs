@@ -1,11 +1,10 @@
-//! Plans and runs of small scenes by the library, and what runs keep, continue and replace in their
-//! folder.
+//! Plans and runs of small scenes by the library, and how runs keep, continue and replace the files in their folder.
 
-mod answers;
 mod bench;
 mod bond;
 mod checkpoint_format;
 mod fall;
+mod penetration;
 mod periodic;
 mod permissions;
 mod plan;

@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, END, PLAIN, body, case, has};
 
-/// A post under liquid that a clamp presses on, its low side at `low` um, in a domain `wide` um wide.
+/// A post under liquid under a clamp. The low side of the post is at `low` um in a domain `wide` um wide.
 fn press(wide: i32, low: i32) -> Bench {
     let tables = r#"[contact]
 law = "stick"
@@ -27,7 +27,7 @@ x = "periodic"
     Bench::with(&case("1 um", Some([0, 0, wide, 10]), &tables))
 }
 
-/// A box across a side was cut there by the implicit scheme, and one beyond it was a wall of no width.
+/// Boxes across and beyond a periodic side give the same result as inside the domain.
 #[test]
 fn a_box_is_the_same_wherever_it_lies_along_a_periodic_axis() {
     for scheme in ["integrator.scheme=implicit", "integrator.scheme=explicit"] {
@@ -52,8 +52,7 @@ fn a_period_is_a_whole_number_of_cells() {
     );
 }
 
-/// The liquid between a floor and a lid that goes along it, sheared at 10 m/s over 4 um. On d2abc9e the lid was gone for
-/// the explicit scheme once it was two periods away.
+/// Liquid between a floor and a sliding lid, sheared at 10 m/s over 4 um, while the lid moves over several periods.
 #[test]
 fn a_lid_drags_liquid_however_many_periods_it_has_gone() {
     let tables = r#"[contact]

@@ -14,10 +14,10 @@ fn set(path: &Path, mode: u32) {
     fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
 }
 
-/// All became readable by everybody.
+/// Replaced files keep their permissions.
 #[test]
 fn files_keep_their_modes_when_another_run_takes_their_place() {
-    // The second is stopped on its way, and has a checkpoint.
+    // The second run is stopped and has a checkpoint.
     for (how, first, second) in [(OVERWRITE, END, END), (RESUME, 9, 4)] {
         let bench = Bench::explicit();
         bench.ran("run", how, first);
@@ -33,7 +33,7 @@ fn files_keep_their_modes_when_another_run_takes_their_place() {
     }
 }
 
-/// Write-protected files were replaced.
+/// A write-protected file stops the run before anything changes.
 #[test]
 fn a_write_protected_file_is_neither_replaced_nor_removed() {
     for (mode, steps, name) in [
@@ -51,7 +51,7 @@ fn a_write_protected_file_is_neither_replaced_nor_removed() {
         let before = bench.everything();
         bench.refuses(mode, &[], &[name, "write-protected"]);
         assert!(bench.everything() == before, "{name}");
-        // Nothing of a run that has ended is written.
+        // An ended run writes nothing.
         if steps == END {
             assert!(bench.run("run", RESUME, END, &[]).unwrap().is_none());
         }

@@ -48,7 +48,7 @@ pub fn plan(replaced: &[(&str, &str)], changes: &[&str]) -> Result<String, Strin
     Bench::with(&text).plan(changes).map_err(|e| e.to_string())
 }
 
-/// Lines of that plan by their beginnings.
+/// Asserts that the plan has lines that begin with `lines`; returns the plan.
 #[track_caller]
 fn says(replaced: &[(&str, &str)], changes: &[&str], lines: &[&str]) -> String {
     let plan = format!("\n{}", plan(replaced, changes).unwrap());
@@ -58,7 +58,7 @@ fn says(replaced: &[(&str, &str)], changes: &[&str], lines: &[&str]) -> String {
     plan
 }
 
-/// Which parts of a run a plan leaves out, but for those that any run does.
+/// Asserts that the plan leaves out `parts`, besides those that every run leaves out.
 #[track_caller]
 fn leaves_out(bench: &Bench, changes: &[&str], parts: &[&str]) {
     const ALWAYS: [&str; 5] = [
@@ -93,7 +93,7 @@ const GRAVITY: &str = "gravity.acceleration=[\"0 m/s2\", \"-9.81 m/s2\", \"0 m/s
 fn a_pressed_slab_by_the_explicit_scheme() {
     let lines = [
         "grid 10 x 15 x 4 cells of 2.0000 um, 3D",
-        // Eight points a cell of 8 um3.
+        // Eight points per cell of 8 um3.
         "liquid 576 material points, 5.7600e-16 m3",
         "1200 kg/m3, K 1.000e9 Pa, viscosity 0.3 Pa s",
         "rigid body wall: 1 voxels, at rest",
@@ -104,7 +104,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
         // Twice the time at full speed.
         "end closed after 3.00 um of travel, at the latest at 3.0000e-6 s",
         // cell / (c + v) and rho cell^2 / (8 eta), half of it by the Courant number.
-        "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the Courant number 0.5",
+        "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the step is 0.5 (Courant number)",
         "time step 1.0000e-9 s, set by viscous",
         "lumen of 17.4 um 8.7 cells across",
         "measured with 12 cells across that lumen",
@@ -140,7 +140,7 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "both with the default Courant number",
     ];
     says(&[], &coarser, &lines);
-    // Boxes on the faces of cells, and cells of 17.4 um over 4.
+    // Boxes on cell faces, with cells of 17.4/4 um.
     let coarser = [
         "grid.cell=4 um",
         "grid.domain.max=[\"20 um\", \"32 um\", \"8 um\"]",
@@ -163,7 +163,7 @@ fn departures_from_the_paper_are_named() {
         "output.snapshots=4",
     ];
     let lines = [
-        // 27 points a cell, at 2/3 um: 18 x 9 x 12.
+        // 27 points per cell, 2/3 um apart: 18 x 9 x 12.
         "liquid 1944 material points, 5.7600e-16 m3",
         "pressure from the mean J of each cell, not the paper's",
         "density projection after every 0.04 cell of motion, not the paper's",
@@ -208,7 +208,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     let plan = bench.plan(&flat).unwrap();
     assert!(plan.contains("\nthird dimension plane strain"), "{plan}");
 
-    // A bond line with all that a scene can have, by either scheme.
+    // A bond line with all optional parts, by either scheme.
     let bench = Bench::with(&CASE.replace(TABLE.0, TABLE.1).replace(FILTER.0, ""));
     let all = [
         "boundary={ x = \"periodic\", y = \"open\" }",
@@ -229,7 +229,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     let [soon, late] = [leaks("1 ns"), leaks("1000 s")];
     let side = |z| format!("boundary={{ x = \"open\", z = \"{z}\" }}");
     let [open, mirror] = [side("open"), side("symmetry")];
-    let closed = "beyond the sides air in lumens is closed off";
+    let closed = "beyond the sides the sides of the specimen close off the air";
     for (changes, doubted) in [
         (["boundary={ z = \"periodic\" }", air], true),
         ([open.as_str(), air], false),
@@ -253,7 +253,7 @@ fn walls_bodies_and_ends_of_every_kind() {
     says(&[(law, "\"stick\"")], &[], &["walls stick"]);
     let slip = "walls partial slip, influence length 5.0000e-8 m (k = 2.000e7 1/m)";
     says(&[], &["contact.influence_length=50 nm"], &[slip]);
-    // A body of the name and motion of another is part of it.
+    // Bodies with the same name and motion are one body.
     let one_wall = ("velocity = \"clamp\"\nname = \"top\"\n", "");
     let free = (CLAMP, "[stop]\ntime = \"0.7 us\"");
     let open = ("x = \"open\"", "x = \"periodic\"");
@@ -286,7 +286,7 @@ fn walls_bodies_and_ends_of_every_kind() {
     );
 }
 
-/// Four points a cell in plane strain. Boxes of liquid that touch share a face, which is no place.
+/// Four points per cell in plane strain. Touching boxes of liquid do not overlap.
 #[test]
 fn liquid_is_counted_in_plane_strain_and_side_by_side() {
     // 12 x 6 um and one cell of 2 um deep.

@@ -1,11 +1,11 @@
-//! Press programmes: what they do, what is refused, and runs stopped in the middle of any stage.
+//! Press programmes: their stages, refused programmes, and runs stopped within any stage.
 
 use run::End;
 
 use crate::bench::{Bench, END, PLAIN, files, has, plates};
 use crate::stopped::ends_the_same;
 
-/// Approach, ramp, hold until next to nothing flows, release: from microseconds to minutes.
+/// Approach, ramp, hold until almost nothing flows, release: from microseconds to minutes.
 const STAGES: &str = r#"
 [[clamp.stage]]
 kind = "approach"
@@ -28,7 +28,7 @@ kind = "release"
 time = "1 min"
 "#;
 
-/// A drop under a clamp of these stages and this way.
+/// A drop under a clamp with these stages and this travel.
 fn case(travel: &str, stages: &str) -> String {
     let tables = format!(
         r#"[clamp]
@@ -73,7 +73,7 @@ fn stages_follow_one_another_in_steps_that_follow_the_flow() {
     let [time, pressure, stage] =
         ["time_s", "pressure_top_Pa", "stage"].map(|name| bench.numbers(name));
     assert_eq!(time.len() as u64, summary.steps, "a row for each step");
-    // The pressure of a step is that which is set in its middle.
+    // The pressure of a step is the set pressure at its middle.
     let ends: Vec<f64> = summary.programme.iter().map(|s| s.end_s).collect();
     let mut before = 0.0;
     for ((&t, &p), &stage) in time.iter().zip(&pressure).zip(&stage) {
@@ -92,7 +92,7 @@ fn stages_follow_one_another_in_steps_that_follow_the_flow() {
             "{p} Pa at {t} s, not {set} Pa"
         );
     }
-    // Four in the way of 8 um that it goes, and one at each end of a stage.
+    // Four over the travel of 8 um, and one at the end of each stage.
     let snapshots = files(&bench.path("run"));
     let snapshots = snapshots
         .keys()
@@ -105,7 +105,7 @@ fn a_programme_stopped_after_any_step_ends_the_same() {
     ends_the_same(&bench(STAGES), 3);
 }
 
-/// The clamp has gone all its way before the press does: wood on wood bears the rest.
+/// The clamp closes before the programme is over: wood on wood bears the remaining pressure.
 #[test]
 fn a_closed_clamp_stands_until_the_programme_is_over() {
     let stages = STAGES.replace("slower = \"500 um/s\"\n", "");
@@ -163,7 +163,7 @@ fn stages_that_contradict_one_another_are_refused() {
     bench(STAGES).refuses(PLAIN, &["integrator.scheme=explicit"], &said);
 }
 
-/// How many steps a hot press takes does not follow from its travel.
+/// The number of steps of a hot press does not follow from its travel.
 #[test]
 fn the_plan_of_a_programme_forecasts_no_steps() {
     let plan = bench(STAGES).plan(&[]).unwrap();

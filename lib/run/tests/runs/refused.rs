@@ -1,4 +1,4 @@
-//! Cases that are refused, and in which words.
+//! Refused cases and their messages.
 
 use crate::plan::{CASE, IMPLICIT, plan};
 
@@ -20,7 +20,7 @@ type Refused = (
     &'static str,
 );
 
-/// Replaced parts of [`CASE`], changed keys, and words of the refusal, one a line.
+/// One case per line: replaced parts of [`CASE`], changed keys, and words of the message.
 #[rustfmt::skip]
 const REFUSED: &[Refused] = &[
     (&[], &["grid.cell=1e-5 um"], "cells long"),
@@ -79,7 +79,7 @@ fn bodies_that_would_meet_or_outrun_sound_are_refused() {
         (&[unlimited][..], "clamp.travel=6 um", ""),
         (&[unlimited], "clamp.travel=7 um", into_wall),
         (&[], "clamp.travel=7 um", into_wall),
-        // Where the pressure may hold the clamp before, the run itself sees to it.
+        // If a pressure limit may hold the clamp first, the run itself checks its travel.
         (&[], "clamp.stop=3.5 us", ""),
         (&[riser], "grid.dimensions=3", "'riser' of given"),
         (&[low], "clamp.travel=3 um", ""),

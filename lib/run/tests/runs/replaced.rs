@@ -1,4 +1,4 @@
-//! Earlier runs in a folder: kept, continued or replaced, and what is not the run's own.
+//! Earlier runs in a folder: kept, continued or replaced; files that are not the run's own.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -9,7 +9,7 @@ use run::{Mode, RunFailure};
 
 use crate::bench::{Bench, END, OVERWRITE, PLAIN, RESUME, everything, has};
 
-/// Names at which a run writes.
+/// Names of the files that a run writes.
 const NAMES: [&str; 8] = [
     "final.mpts",
     "checkpoint.mpts",
@@ -23,7 +23,7 @@ const NAMES: [&str; 8] = [
 
 const MODES: [Mode; 3] = [PLAIN, RESUME, OVERWRITE];
 
-/// A folder marked as a run folder, with no run in it.
+/// A folder with the mark of a run folder but without a run.
 fn marked() -> Bench {
     let bench = Bench::explicit();
     fs::create_dir_all(bench.path("run/snapshots")).unwrap();
@@ -31,7 +31,7 @@ fn marked() -> Bench {
     bench
 }
 
-/// Asserts that a run is refused with `sentence` and touches nothing but an empty mark.
+/// Asserts that a run is refused with `sentence` and changes nothing except an empty mark.
 fn refused(bench: &Bench, mode: Mode, sentence: &str) {
     let content = || {
         let mut files = bench.everything();
@@ -52,8 +52,7 @@ fn refused_always(bench: &Bench, sentence: &str) {
     }
 }
 
-/// Inputs, links, folders, and files in a folder that is not marked: nothing there is known to be a run's. The case read
-/// would have been replaced by 314e630 at five of these names.
+/// Inputs, links, folders, and files in an unmarked folder, of which none is known to be a run's.
 #[test]
 fn what_stands_at_a_name_of_the_runs_and_is_not_its_own_is_refused() {
     type Put = fn(&Bench, &Path);
@@ -157,7 +156,7 @@ fn only_states_and_checkpoints_of_a_run_are_replaced() {
     bench.ran("run", OVERWRITE, END);
 }
 
-/// 314e630 removed the snapshots' folder with all in it.
+/// A new run removes the files of the earlier one only.
 #[test]
 fn another_run_goes_with_its_files_and_foreign_ones_stay() {
     let bench = Bench::explicit();
@@ -169,7 +168,7 @@ fn another_run_goes_with_its_files_and_foreign_ones_stay() {
         "wp.csv",
         "final.tmp",
     ];
-    // What a killed run leaves goes too.
+    // Leftovers of a killed run are removed too.
     for name in (theirs.iter()).chain(&[".mpm-run.tmp", "snapshots/.mpm-run.tmp"]) {
         bench.write(&format!("run/{name}"), name);
     }
@@ -196,7 +195,7 @@ fn a_run_is_not_replaced_unasked() {
         }
         refused(&bench, PLAIN, "already holds a run");
     }
-    // Begun, but without a checkpoint to lose: the same case starts again, another does not.
+    // A started run without a checkpoint: the same case starts again, another one does not.
     let bench = Bench::explicit();
     bench.ran("run", PLAIN, END);
     bench.remove("run/final.mpts");
@@ -218,7 +217,7 @@ fn a_run_that_has_ended_is_left_but_for_what_a_kill_left() {
     bench.write("run/.mpm-run.tmp", "half");
     assert!(bench.run("run", RESUME, END, &[]).unwrap().is_none());
     assert!(bench.everything() == ended);
-    // At another Courant number that checkpoint is not gone on from, either.
+    // Nor is that checkpoint continued at another Courant number.
     bench.write("run/checkpoint.mpts", &checkpoint);
     let changed = ["integrator.cfl=0.3", "clamp.stop=5 us"];
     let said = [
@@ -231,7 +230,7 @@ fn a_run_that_has_ended_is_left_but_for_what_a_kill_left() {
     assert_eq!(bench.bytes("run/checkpoint.mpts"), b"theirs");
 }
 
-/// Snapshots of steps that a run at another Courant number may never take were kept.
+/// Later snapshots are removed: a run at another Courant number may never take their steps.
 #[test]
 fn what_came_after_the_checkpoint_goes() {
     let bench = Bench::explicit();

@@ -1,4 +1,4 @@
-//! `resolved.toml`: every key with the value that held, and as a case file the same run again.
+//! `resolved.toml`: all keys with their values; used as a case file it repeats the run.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use particle_file::ParticleFile;
 
 use crate::bench::{Bench, END, PLAIN, everything, has};
 
-/// What of a run folder does not name its inputs: history and points.
+/// The results in a run folder that do not name its inputs: history and points.
 fn results(folder: &Path) -> Vec<(String, String)> {
     let files = everything(folder).into_iter();
     let result = |(name, bytes): (String, Vec<u8>)| match name.rsplit_once('.')?.1 {
@@ -21,7 +21,7 @@ fn results(folder: &Path) -> Vec<(String, String)> {
     files.filter_map(result).collect()
 }
 
-/// Runs a case and what it resolved to; the latter's text.
+/// Runs a case and its `resolved.toml`, compares the results and returns the text of `resolved.toml`.
 fn runs_again(bench: &Bench) -> String {
     bench.ran("first", PLAIN, END);
     let resolved = fs::read_to_string(bench.path("first/resolved.toml")).unwrap();
@@ -68,7 +68,7 @@ fn an_implicit_case_with_its_defaults_is_the_same_run() {
     has(&text, &lines);
 }
 
-/// No clamp, no walls, no domain; rows and box by default.
+/// No clamp, no walls, no domain; default rows and box.
 #[test]
 fn a_free_drop_with_its_defaults_is_the_same_run() {
     let case = "[grid]\ncell = \"1.7 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n[stop]\ntime = \"0.01 us\"\n[[body]]\nmaterial = \"adhesive\"\nvelocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\nbox = { min = [\"0.1 um\", \"0 um\", \"0 um\"], max = [\"10.3 um\", \"7 um\", \"5 um\"] }\n[boundary]\nx = \"periodic\"\n";

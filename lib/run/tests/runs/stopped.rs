@@ -1,10 +1,10 @@
-//! A run stopped after any of its steps, the last one too, and continued ends as one in one piece.
+//! A run that is stopped after any step, the last one included, and continued ends like an uninterrupted one.
 
 use run::{End, Summary};
 
 use crate::bench::{Bench, END, RESUME, files};
 
-/// All of a summary but the costs.
+/// The summary without the costs.
 fn facts(summary: &Summary) -> String {
     let mut value = serde_json::to_value(summary).unwrap();
     for cost in [
@@ -19,7 +19,7 @@ fn facts(summary: &Summary) -> String {
     value.to_string()
 }
 
-/// A run of `bench` in one piece and stopped after every `apart`th step; its summary.
+/// Runs `bench` uninterrupted and stopped after every `apart`th step, and compares the two; returns the summary.
 pub fn ends_the_same(bench: &Bench, apart: usize) -> Summary {
     let summary = bench.ran("run", RESUME, END);
     let whole = files(&bench.path("run"));
@@ -34,7 +34,7 @@ pub fn ends_the_same(bench: &Bench, apart: usize) -> Summary {
     summary
 }
 
-/// On 314e630 a run stopped in its last step ended at 0 Pa, without its last row.
+/// Plates, stopped after every `apart`th step; a run stopped in its last step keeps pressure and row.
 fn plates(apart: usize, integrator: &str, stop: &str, every: &str) -> Summary {
     let bench = Bench::new(integrator, stop, every);
     let summary = ends_the_same(&bench, apart);
@@ -54,7 +54,7 @@ fn an_implicit_run_stopped_after_any_step_ends_the_same() {
     plates(1, "scheme = \"implicit\"\ncfl = 0.05", "1.45 us", "0.4 us");
 }
 
-/// Its clock sets the viscosity, and its end.
+/// The time of the run determines viscosity and end.
 #[test]
 fn a_run_of_an_adhesive_that_sets_stopped_after_any_step_ends_the_same() {
     let cure = "scheme = \"implicit\"\n[adhesive.cure]\ngel_time = \"2 us\"\nexponent = 2.0";
@@ -65,7 +65,7 @@ fn a_run_of_an_adhesive_that_sets_stopped_after_any_step_ends_the_same() {
     assert!(summary.sentence().contains("because the adhesive has set"));
 }
 
-/// What is left of the water in each point, and the account of it, are part of the state.
+/// The water in each point and the water balance are part of the state.
 #[test]
 fn a_run_of_an_adhesive_that_dries_stopped_after_any_step_ends_the_same() {
     let water = "scheme = \"implicit\"\ncfl = 0.05\n[adhesive.water]\nsolids = 0.45\nuptake = \"0.2 m/s\"\ndiffusivity = \"1e-5 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]";

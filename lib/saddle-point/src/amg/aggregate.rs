@@ -13,7 +13,7 @@ const PASSES: usize = 3;
 /// A pair is formed only along a coupling at least this fraction of the row's strongest.
 const STRONG: f64 = 0.25;
 
-/// Which coarse row every fine row joins, and the fine rows of every coarse row.
+/// The coarse row of every fine row, and the fine rows of every coarse row.
 pub(super) struct Aggregation {
     coarse_of: Vec<u32>,
     member_start: Vec<u32>,
@@ -176,8 +176,8 @@ fn galerkin(matrix: &Csr<f64>, aggregation: &Aggregation) -> Result<Csr<f64>, So
 mod tests {
     use super::*;
 
-    /// Rows of three joined by 1 within and by `weak` to the next three: the first two of the first pair
-    /// up, and the third joins the next only along a coupling of a quarter or more.
+    /// Triples of rows coupled by 1 inside and by `weak` to the next triple: the first two rows pair up, and the third pairs
+    /// with the next triple only if its coupling is a quarter or more.
     #[test]
     fn rows_join_along_a_quarter_of_the_strongest_coupling() {
         let rows = |weak: f64| {

@@ -7,10 +7,10 @@ use crate::vector::{Work, add_scaled, dot, for_each, norm};
 /// of the spectrum of `D^-1 A` that aggregates of eight cannot represent. The bound 2 holds for
 /// non-positive off-diagonal entries.
 const WEIGHTS: [Work; 2] = [0.5735, 1.975];
-/// Aggregates of piecewise constants make the coarse operator too stiff; the correction is
-/// lengthened (Braess 1995, Computing 55, 379-393); by how much is by trial.
+/// Piecewise constant aggregates make the coarse operator too stiff, so the correction is enlarged (Braess 1995, Computing
+/// 55, 379-393). The factor was found by trial.
 const OVERCORRECTION: Work = 1.3;
-/// The second Krylov step is left out when the first reduces the residual by this (Notay 2010, ETNA 37, 123-146).
+/// The second Krylov step is skipped if the first reduces the residual to this fraction (Notay 2010, ETNA 37, 123-146).
 const ENOUGH: f64 = 0.25;
 
 /// Vectors of one level, kept between cycles.
@@ -18,7 +18,7 @@ pub(super) struct Vectors {
     rhs: Vec<Work>,
     solution: Vec<Work>,
     scratch: Vec<Work>,
-    /// Of the two Krylov steps: direction and its product, and the second product.
+    /// Krylov steps: second direction, and the products of the first and the second.
     direction: Vec<Work>,
     product: Vec<Work>,
     second: Vec<Work>,
@@ -53,10 +53,10 @@ impl Amg {
     }
 }
 
-/// The levels from one on, and the last.
+/// The levels from a given one on, and the last one.
 type Levels<'a> = (&'a [Level], &'a Bottom);
 
-/// Smoothing, coarse correction, smoothing on the first of `levels`.
+/// Smoothing, coarse correction and smoothing on the first of `levels`.
 fn descend(
     (levels, bottom): Levels,
     b: &[Work],
@@ -69,7 +69,7 @@ fn descend(
     else {
         return bottom.solve(b, x);
     };
-    // From zero the first sweep needs no product.
+    // The first sweep starts from zero and needs no product.
     let inverse = &level.inverse_diagonal;
     for_each(scratch, |row, out| {
         *out = WEIGHTS[0] * inverse[row] * b[row]
@@ -153,7 +153,7 @@ mod tests {
     use super::*;
     use crate::csr::Csr;
 
-    /// The Laplacian of a cube of `n` cells an edge whose sides are held at zero.
+    /// The Laplacian on a cube of `n` cells per edge with zero at the sides.
     fn cube(n: usize) -> Csr<f64> {
         let rows = n * n * n;
         let assembled = Csr::assemble(rows, rows, |row, entries| {
@@ -171,9 +171,8 @@ mod tests {
         assembled.unwrap()
     }
 
-    /// Steps of conjugate gradients are best in the energy: what is left of the right-hand side is
-    /// orthogonal to the solution, and the energy x.Ax = x.b of two steps is more than that of the best
-    /// multiple of one cycle.
+    /// Steps of conjugate gradients are optimal in the energy norm: the residual is orthogonal to the solution, and the energy
+    /// x.Ax = x.b of two steps exceeds that of the best multiple of one cycle.
     #[test]
     fn steps_on_a_level_are_the_best_in_the_energy() {
         let mut amg = Amg::new(&cube(20)).unwrap();
@@ -185,7 +184,7 @@ mod tests {
             |x: &[Work]| -> Vec<Work> { (0..rows).map(|row| matrix.row_times(row, x)).collect() };
         let (next, rest) = amg.vectors[1..].split_first_mut().unwrap();
         let mut most = 0.0_f64;
-        // From the smoothest to nearly the roughest right-hand side, which takes fewer steps.
+        // From the smoothest right-hand side to nearly the roughest, which takes fewer steps.
         for waves in [1, 2, 5, 100, 450] {
             let wave = std::f64::consts::PI * f64::from(waves) / rows as f64;
             let b: Vec<Work> = (0..rows)

@@ -3,8 +3,8 @@
 use crate::csr::Csr;
 use crate::vector::{Real, Work};
 
-/// A pivot below this fraction of its diagonal entry marks a row that depends on earlier ones
-/// (a closed pocket without compressibility); its unknown is set to zero.
+/// A pivot below this fraction of its diagonal entry marks a row that depends on earlier ones (a closed pocket without
+/// compressibility). Its unknown is set to zero.
 const DEPENDENT: f64 = 1e-11;
 
 /// `A = L L^T`, dense, lower triangle by rows.
@@ -70,8 +70,8 @@ impl Cholesky {
 mod tests {
     use super::*;
 
-    /// Two cells that push one another, one of them compressible by a part of that: below the rounding of
-    /// the elimination it cannot be told from a closed pocket, whose last pressure is zero.
+    /// Two coupled cells, one slightly compressible. Below the rounding of the elimination they cannot be distinguished from a
+    /// closed pocket, whose last pressure is zero.
     #[test]
     fn what_is_left_of_a_row_by_rounding_is_dependent() {
         let last = |part: f64| {

@@ -14,12 +14,12 @@ use aggregate::{Aggregation, coarsen};
 use cycle::Vectors;
 use dense::Cholesky;
 
-/// Rows below which a level is factorised; a coarse solve costs the square of this.
+/// Most rows of a level that is factorised; a coarse solve costs the square of this.
 const MAX_DENSE: usize = 256;
 /// More levels than a 32-bit row count can need.
 const MAX_LEVELS: usize = 12;
 
-/// One level above the last: its operator and how its rows join into the rows of the next.
+/// A level above the last: its operator, and the aggregation of its rows to the rows of the next.
 struct Level {
     matrix: Csr<Work>,
     /// `1 / diagonal`, zero for an empty row.
@@ -38,7 +38,7 @@ enum Bottom {
 pub(crate) struct Amg {
     levels: Vec<Level>,
     bottom: Bottom,
-    /// Of all levels, the last included.
+    /// Vectors of all levels, the last included.
     vectors: Vec<Vectors>,
 }
 

@@ -1,12 +1,11 @@
-//! A compact copy of a scaled matrix, whose products are memory-bound.
+//! A compact form of a scaled matrix, for products that are bound by memory.
 //!
-//! Entries of `D^-1/2 A D^-1/2` lie in [-1, 1] and are kept as two fixed-point numbers, of 16 and 32 bits: the
-//! first alone for the preconditioner, both for products to 1e-14 of them. Rows
-//! are taken eight at a time. Where several of the eight couple to the same distance (the same
-//! neighbour along a grid line), one base column serves all eight and their values of `x` are
-//! contiguous; the rest share a base column and keep 16-bit offsets. That is 2.3 to 4.5 bytes
-//! per entry (4 more for the second number) instead of 12 in plain rows, and no bounds check per entry.
-//! Products that follow one another are taken in waves ([`sweeps`]), so that rows come from memory once for several.
+//! Entries of `D^-1/2 A D^-1/2` lie in [-1, 1] and are stored as two fixed-point numbers, of 16 and 32 bits. The first one
+//! alone serves the preconditioner; both give products to 1e-14. Rows are stored in blocks of eight. Where several of the
+//! eight couple at the same distance (the same neighbour along a grid line), one base column serves all eight, and their
+//! values of `x` are contiguous. The rest share a base column and have 16-bit offsets. This takes 2.3 to 4.5 bytes per entry
+//! (4 more for the second number) instead of 12 in plain rows, without a bounds check per entry. Successive products run in
+//! waves ([`sweeps`]), so that rows are loaded from memory once for several of them.
 
 mod packer;
 mod product;
@@ -23,21 +22,21 @@ use product::FineProduct;
 
 pub(crate) use product::{Absolute, Finish};
 
-/// Rows handled together.
+/// Rows of a block.
 pub(crate) const LANES: usize = 8;
 /// Rows multiplied by one task.
 const PIECE: usize = 1 << 11;
-/// Reach of an offset; vectors carry this many zeros behind their last value.
+/// Reach of an offset; vectors are padded with this many zeros.
 const WINDOW: usize = 1 << 11;
 /// Fixed-point unit, of 16 bits.
 const UNIT: f64 = 32767.0;
-/// Parts of a unit that the second number counts, of 32 bits.
+/// Parts of a unit counted by the second number, of 32 bits.
 const FINE: f64 = 4_294_967_296.0;
 
-/// A value for each of them.
+/// One value per row of a block.
 pub(crate) type Lanes<T = Work> = [T; LANES];
 
-/// Eight fixed-point values, and what they lack.
+/// First and second fixed-point numbers of eight values.
 type Values = Lanes<i16>;
 type Rests = Lanes<i32>;
 
@@ -45,29 +44,29 @@ type Rests = Lanes<i32>;
 pub(crate) struct PackedMatrix {
     n: usize,
     chunks: Vec<PackedRows>,
-    /// The most that a block of rows reads before its first row or behind its last, zeros of its runs included.
+    /// Largest distance that a block of rows reads before its first or after its last row, zeros of its runs included.
     reach: usize,
 }
 
 /// The rows of one chunk in blocks of eight.
 #[derive(Default)]
 struct PackedRows {
-    /// As that of the matrix.
+    /// As [`PackedMatrix::reach`], for this chunk.
     reach: usize,
-    /// End of every block in the two lists below.
+    /// End of every block in `runs` and in `scattered`.
     run_end: Vec<u32>,
     scattered_end: Vec<u32>,
     /// Couplings at equal distance: row `i` of the block to column `base + i`.
     runs: Vec<(u32, Values)>,
     /// Couplings anywhere: row `i` to column `base + offset_i`.
     scattered: Vec<(u32, [u16; LANES], Values)>,
-    /// What the values of both lists lack of the matrix, in units of [`FINE`].
+    /// Second numbers of the values in both lists, in units of 1 / [`FINE`].
     runs_rest: Vec<Rests>,
     scattered_rest: Vec<Rests>,
 }
 
 impl PackedRows {
-    /// Where in the two lists block `block` begins.
+    /// Begin of block `block` in the two lists.
     fn starts(&self, block: usize) -> (usize, usize) {
         let of = |ends: &[u32]| {
             block
@@ -101,16 +100,16 @@ impl PackedRows {
     }
 }
 
-/// A value of both numbers, in units of the second.
+/// The value of both numbers.
 #[inline(always)]
 fn entry(high: i16, rest: i32) -> f64 {
     f64::from(high) * FINE + f64::from(rest)
 }
 
 impl PackedMatrix {
-    /// Packs `S A S` for the symmetric `a`, by chunks of rows that go as they are packed, and `S = D^-1/2` given in `scale`.
+    /// Packs `S A S` for the symmetric `a`, with `S = D^-1/2` in `scale`. Chunks of `a` are freed as they are packed.
     ///
-    /// Fails when an entry exceeds one: then `a` is not positive definite.
+    /// Fails if an entry exceeds one: `a` is then not positive definite.
     pub(crate) fn new(a: Vec<Rows<f64>>, scale: &[f64]) -> Result<Self, SolveError> {
         let pack = |(chunk, rows): (usize, Rows<f64>)| {
             let start = chunk * CHUNK;
@@ -129,13 +128,13 @@ impl PackedMatrix {
         })
     }
 
-    /// Columns and entries of row `row`, but for the diagonal; some of no effect are zero.
+    /// Columns and entries of row `row` without the diagonal; some entries are zero.
     pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let (block, lane) = (row % CHUNK / LANES, row % LANES);
         self.chunks[row / CHUNK].row(block, lane)
     }
 
-    /// Length of the vectors it multiplies: rows, then zeros.
+    /// Length of its vectors: number of rows and padding.
     pub(crate) fn padded_len(&self) -> usize {
         self.n.next_multiple_of(LANES) + WINDOW
     }
@@ -161,7 +160,7 @@ mod tests {
         }
     }
 
-    /// Neighbours at distance 1 and 300, and one far away in the mirrored row.
+    /// Couplings at distance 1 and 300, and one to the mirrored row.
     fn fill(n: usize, row: usize, entries: &mut RowEntries) {
         entries.add(row, 5.0 + (row % 7) as f64);
         for distance in [1, 300] {
@@ -177,7 +176,7 @@ mod tests {
 
     #[test]
     fn products_agree_with_plain_rows() {
-        // More than a chunk, far more than an offset reaches, and not a multiple of eight.
+        // More rows than a chunk and than the reach of an offset, and no multiple of eight.
         let n = 4 * CHUNK + 4467;
         let a: Csr<f64> = Csr::assemble(n, n, |row, entries| fill(n, row, entries)).unwrap();
         let rows = assemble_chunks(n, n, |row, entries| fill(n, row, entries));
@@ -213,7 +212,7 @@ mod tests {
                 (sum - f64::from(plain[row])).abs() < 6.0 * 0.5 / UNIT,
                 "row {row}"
             );
-            // Half a unit of the second number, or a whole one where it has no room to be rounded up; and rounding.
+            // Half a unit of the second number, or a whole one if it cannot be rounded up; and rounding.
             assert!(
                 (sum - fine[row]).abs() < 6.0 / (UNIT * FINE) + 1e-15,
                 "row {row}"

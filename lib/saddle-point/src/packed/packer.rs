@@ -1,10 +1,10 @@
-//! Packs the rows of a matrix, eight at a time.
+//! Packing of the rows of a matrix in blocks of eight.
 
 use super::{FINE, LANES, PackedRows, UNIT, WINDOW};
 use crate::SolveError;
 use crate::csr::Rows;
 
-/// Couplings at one distance among eight rows from which a common base pays, in time.
+/// Least number of couplings at one distance among eight rows for which a run is faster.
 const MIN_RUN: usize = 4;
 
 /// A fixed-point entry: `high + rest / FINE` units.
@@ -14,15 +14,15 @@ struct Fixed {
     rest: i32,
 }
 
-/// Packs one block of rows after the other.
+/// Packs the blocks of a chunk in order.
 pub(super) struct Packer<'a> {
     chunk: &'a Rows<f64>,
     /// Its first row.
     start: usize,
     scale: &'a [f64],
     rows: PackedRows,
-    /// Entries of every lane that found no run, columns ascending.
-    left: [Vec<(u32, Fixed)>; LANES],
+    /// Entries of every lane that are in no run, columns ascending.
+    scattered: [Vec<(u32, Fixed)>; LANES],
 }
 
 impl<'a> Packer<'a> {
@@ -32,12 +32,12 @@ impl<'a> Packer<'a> {
             start,
             scale,
             rows: PackedRows::default(),
-            left: Default::default(),
+            scattered: Default::default(),
         }
     }
 
     pub(super) fn pack_block(&mut self, first: usize) -> Result<(), SolveError> {
-        self.left.iter_mut().for_each(Vec::clear);
+        self.scattered.iter_mut().for_each(Vec::clear);
         let mut lanes: [(&[u32], &[f64]); LANES] = Default::default();
         for (row, lane) in (first - self.start..self.chunk.len()).zip(&mut lanes) {
             *lane = self.chunk.row(row);
@@ -71,13 +71,13 @@ impl<'a> Packer<'a> {
                 }
                 _ => {
                     for (i, column) in members.into_iter().enumerate() {
-                        self.left[i].extend(column.map(|column| (column, values[i])));
+                        self.scattered[i].extend(column.map(|column| (column, values[i])));
                     }
                 }
             }
         }
         self.scatter();
-        self.take_reach(first);
+        self.extend_reach(first);
         self.rows.run_end.push(self.rows.runs.len() as u32);
         self.rows
             .scattered_end
@@ -85,7 +85,7 @@ impl<'a> Packer<'a> {
         Ok(())
     }
 
-    /// The rows packed, in no more memory than they need.
+    /// The packed rows, without spare memory.
     pub(super) fn finish(self) -> PackedRows {
         let mut rows = self.rows;
         rows.runs.shrink_to_fit();
@@ -95,19 +95,22 @@ impl<'a> Packer<'a> {
         rows
     }
 
-    /// Packs the entries left without a run: per slot one entry of every lane within reach of the
-    /// lowest column.
+    /// Packs the entries that are in no run: each slot takes one entry per lane within reach of the lowest column.
     fn scatter(&mut self) {
         let mut next = [0; LANES];
         loop {
-            let heads = self.left.iter().zip(next).map(|(left, at)| left.get(at));
+            let heads = self
+                .scattered
+                .iter()
+                .zip(next)
+                .map(|(scattered, at)| scattered.get(at));
             let Some(base) = heads.flatten().map(|entry| entry.0).min() else {
                 return;
             };
             let mut offsets = [0; LANES];
             let mut values = [Fixed::default(); LANES];
-            for (i, left) in self.left.iter().enumerate() {
-                if let Some(&(column, value)) = left.get(next[i])
+            for (i, scattered) in self.scattered.iter().enumerate() {
+                if let Some(&(column, value)) = scattered.get(next[i])
                     && ((column - base) as usize) < WINDOW
                 {
                     offsets[i] = (column - base) as u16;
@@ -121,8 +124,8 @@ impl<'a> Packer<'a> {
         }
     }
 
-    /// Takes in how far the last block, of which row `first` is the first, reads.
-    fn take_reach(&mut self, first: usize) {
+    /// Extends the reach by that of the last block, which begins at row `first`.
+    fn extend_reach(&mut self, first: usize) {
         let (run, place) = (self.rows.run_end.last(), self.rows.scattered_end.last());
         let of = |end: Option<&u32>| end.map_or(0, |&end| end as usize);
         let runs = self.rows.runs[of(run)..].iter().map(|run| (run.0, LANES));
@@ -153,12 +156,12 @@ impl<'a> Packer<'a> {
     }
 }
 
-/// Half away from zero; what would overflow a type that it is cast to takes the largest value.
+/// Rounds half away from zero. A cast then saturates instead of overflowing.
 fn nearest_integer(value: f64) -> f64 {
     value + 0.5f64.copysign(value)
 }
 
-/// Column minus row of a lane's next entry, the largest number where there is none.
+/// Column minus row of a lane's next entry; the largest number if there is none.
 fn next_distance(row: usize, columns: &[u32]) -> i64 {
     (columns.first()).map_or(i64::MAX, |&column| i64::from(column) - row as i64)
 }

@@ -4,15 +4,16 @@ use super::{FINE, LANES, Lanes, PackedRows, UNIT, WINDOW, entry};
 use crate::simd::Kernel;
 use crate::vector::{CHUNK, Work};
 
-/// What is made of the product of a block of eight rows.
+/// Use of the product of a block of eight rows.
 pub(crate) trait Finish: Sync {
-    /// An entry as it counts.
+    /// Transforms an entry before the product.
     #[inline(always)]
     fn entry(value: i16) -> i16 {
         value
     }
 
-    /// Takes the product of block `block` with a vector that is `here` in that block; must be `#[inline(always)]`.
+    /// Combines the product of block `block` with the vector, whose values in that block are `here`, into `out`. Must be
+    /// `#[inline(always)]`.
     fn finish(&self, block: usize, here: &Lanes, product: Lanes, out: &mut Lanes);
 }
 
@@ -31,13 +32,13 @@ impl Finish for Absolute {
     }
 }
 
-/// The product of some of the rows of a chunk.
+/// The product of consecutive rows of a chunk.
 pub(super) struct Product<'a, F> {
     pub(super) rows: &'a PackedRows,
-    /// The vector from row `x_start` on, as far as the rows reach.
+    /// Part of the vector within reach of the rows, from row `x_start` on.
     pub(super) x: &'a [Work],
     pub(super) x_start: usize,
-    /// Block from which on.
+    /// First block.
     pub(super) first: usize,
     pub(super) out: &'a mut [Lanes],
     pub(super) finish: &'a F,
@@ -84,7 +85,7 @@ impl<F: Finish> Kernel for Product<'_, F> {
     }
 }
 
-/// `N` values from place `at` on, if there are as many.
+/// `N` values from index `at` on, if they exist.
 #[inline(always)]
 fn window<T, const N: usize>(x: &[T], at: usize) -> Option<&[T; N]> {
     let last = x.len().checked_sub(N)?;
@@ -95,7 +96,7 @@ fn window<T, const N: usize>(x: &[T], at: usize) -> Option<&[T; N]> {
     x[at..at + N].first_chunk()
 }
 
-/// The off-diagonal part times `x` of one chunk of rows, of both halves of the entries.
+/// The off-diagonal part of one chunk of rows times `x`, with both numbers of the entries.
 pub(super) struct FineProduct<'a> {
     pub(super) rows: &'a PackedRows,
     pub(super) x: &'a [f64],

@@ -1,9 +1,9 @@
-//! Products that follow one another, in waves.
+//! Successive products in waves.
 //!
-//! A sweep reads the last iterate and writes over the one before it. Row by row it needs the last iterate only
-//! as far as its couplings reach, so the next sweep can follow at that distance while the rows are still in the cache: of
-//! several sweeps each is taken a little behind the one before. What a wave reads and what it writes are separate
-//! parts of the two vectors, and every row is computed as it would be by itself: the same bits in any order.
+//! A sweep reads the last iterate and overwrites the one before it. A row needs the last iterate only as far as its
+//! couplings reach, so the next sweep can follow at that distance while the rows are still in the cache. A wave therefore
+//! runs several sweeps, each a little behind the one before. It reads and writes separate parts of the two vectors, and
+//! every row is computed as in a plain sweep: the same bits in any order.
 
 use std::mem::{swap, take};
 
@@ -14,16 +14,15 @@ use super::{LANES, PIECE, PackedMatrix};
 use crate::simd::dispatch;
 use crate::vector::{CHUNK, Work};
 
-/// Sweeps in one wave, the fastest: a product of 1.5 million rows takes 6.4 to 7.2 ms one by one, 5.1 in waves of 4, 4.8 of 8,
-/// 4.9 of 12 and 7.1 of 23.
+/// Sweeps in one wave. This is the fastest: a product of 1.5 million rows takes 6.4 to 7.2 ms without waves, 5.1 ms in waves
+/// of 4, 4.8 of 8, 4.9 of 12 and 7.1 of 23.
 const DEPTH: usize = 8;
-/// Tiles in the reach of a row: the smaller a tile, the closer sweeps follow one another, and the less of a wave there is for
-/// threads to share.
+/// Tiles in the reach of a row. Smaller tiles let sweeps follow more closely, but leave less work for the threads to share.
 const TILES_IN_REACH: usize = 5;
 
 impl PackedMatrix {
-    /// Finishes every block of eight rows with the off-diagonal part times `now`, over `before`, and swaps the two; so for
-    /// each of `sweeps`. Both have the padded length.
+    /// For each of `sweeps`: multiplies `now` by the off-diagonal part, lets the sweep combine the product of every block into
+    /// `before`, and swaps the two. Both have the padded length.
     pub(crate) fn sweep<F: Finish>(
         &self,
         now: &mut Vec<Work>,
@@ -42,16 +41,16 @@ impl PackedMatrix {
     }
 }
 
-/// Sweeps over tiles of rows, each so many tiles behind the one before.
+/// Sweeps over tiles of rows, each a fixed number of tiles behind the one before.
 struct Waves<'a, F> {
     matrix: &'a PackedMatrix,
     sweeps: &'a [F],
-    /// Rows of a tile, and how many tiles before and after its own it reads.
+    /// Rows of a tile, and number of tiles that it reads before and after its own.
     rows: usize,
     tiles_reached: usize,
 }
 
-/// A tile of one sweep: what it reads, from row `x_start` on, and what it writes, from row `first` on.
+/// A tile of one sweep: it reads `x`, from row `x_start` on, and writes `out`, from row `first` on.
 struct Tile<'a, F> {
     sweep: &'a F,
     x: &'a [Work],
@@ -62,7 +61,7 @@ struct Tile<'a, F> {
 
 impl<'a, F: Finish> Waves<'a, F> {
     fn new(matrix: &'a PackedMatrix, sweeps: &'a [F]) -> Self {
-        // One sweep has none to stay close to: a single tile, shared by all threads.
+        // A single sweep needs no waves: one tile, shared by all threads.
         let rows = match sweeps {
             [_] => matrix.n,
             _ => matrix.reach.div_ceil(TILES_IN_REACH),
@@ -76,7 +75,7 @@ impl<'a, F: Finish> Waves<'a, F> {
         }
     }
 
-    /// How far behind the one before a sweep follows.
+    /// Distance between successive sweeps, tiles.
     fn lag(&self) -> usize {
         self.tiles_reached + 1
     }
@@ -85,7 +84,7 @@ impl<'a, F: Finish> Waves<'a, F> {
         self.matrix.n.div_ceil(self.rows) + (self.sweeps.len() - 1) * self.lag()
     }
 
-    /// Takes one tile of each sweep that has begun and has not ended.
+    /// Runs one tile of each active sweep.
     fn run(&self, wave: usize, now: &mut [Work], before: &mut [Work]) {
         let tiles = self.tiles(wave, now, before);
         let pieces = tiles.into_iter().flat_map(|tile| {
@@ -104,7 +103,7 @@ impl<'a, F: Finish> Waves<'a, F> {
         pieces.into_par_iter().for_each(dispatch);
     }
 
-    /// The tiles of a wave. Their parts of both vectors follow one another from the end on.
+    /// The tiles of a wave. Their parts of both vectors are cut off from the end on.
     fn tiles<'v>(
         &self,
         wave: usize,
@@ -125,8 +124,8 @@ impl<'a, F: Finish> Waves<'a, F> {
             let end = (first + self.rows).min(rows);
             let reach = self.tiles_reached * self.rows;
             let x_start = first.saturating_sub(reach);
-            let x = cut(&mut rest[j % 2], x_start, end + reach);
-            let out = cut(&mut rest[(j + 1) % 2], first, end);
+            let x = cut_off(&mut rest[j % 2], x_start, end + reach);
+            let out = cut_off(&mut rest[(j + 1) % 2], first, end);
             tiles.push(Tile {
                 sweep,
                 x,
@@ -139,8 +138,8 @@ impl<'a, F: Finish> Waves<'a, F> {
     }
 }
 
-/// Takes `start..end` of `rest`, or as much of it as there is, and leaves what is before.
-fn cut<'v>(rest: &mut &'v mut [Work], start: usize, end: usize) -> &'v mut [Work] {
+/// Cuts `start..end`, as far as it exists, off the end of `rest`.
+fn cut_off<'v>(rest: &mut &'v mut [Work], start: usize, end: usize) -> &'v mut [Work] {
     let (before, part) = take(rest).split_at_mut(start);
     *rest = before;
     let end = part.len().min(end - start);
@@ -153,7 +152,7 @@ mod tests {
     use crate::csr::assemble_chunks;
     use crate::packed::Lanes;
 
-    /// A step that depends on the row, its iterate and the one before.
+    /// A step that depends on the row, its last iterate and the one before.
     struct Mix(Work);
 
     impl Finish for Mix {
@@ -164,8 +163,8 @@ mod tests {
         }
     }
 
-    /// Many sweeps in waves are one after the other, each over the whole vector, to the bit: rows that reach a part of a tile,
-    /// several tiles, unevenly, here and there, and from one end to the other; fewer sweeps than a wave takes, and more.
+    /// Sweeps in waves give the same bits as plain sweeps, for rows that reach part of a tile, several tiles, unevenly,
+    /// irregularly, and from one end to the other; for fewer sweeps than a wave and for more.
     #[test]
     fn sweeps_in_waves_are_sweeps_one_by_one() {
         const N: usize = 3 * CHUNK + 5 * PIECE + 21;

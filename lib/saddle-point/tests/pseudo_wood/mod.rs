@@ -8,7 +8,7 @@ mod problem;
 pub use problem::Problem;
 use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
 
-/// A cell, or a face by the cell above it.
+/// Indices of a cell, or of the cell above a face.
 type Point = [i64; 3];
 /// A face across an axis, the lower one of a cell.
 type Face = (usize, Point);
@@ -18,10 +18,10 @@ const INERTIA: f64 = 1200.0 * 2.9e-6 * 2.9e-6 / TIME_STEP;
 const TIME_STEP: f64 = 1e-6;
 /// Velocity of the upper block.
 const SPEED: f64 = -1.0;
-/// Cells from wall to wall of a lumen, and along one that is aslant by a cell.
+/// Width of a lumen, and length over which it slants by one cell, cells.
 const PITCH: i64 = 8;
 const SLANT: i64 = 5;
-/// Distance of walls from the middle of the cell beside them.
+/// Distance of walls from the centre of the adjacent cell.
 const DISTANCE: f64 = 0.45;
 const NONE: u32 = u32::MAX;
 
@@ -30,14 +30,14 @@ fn shift(mut at: Point, axis: usize, by: i64) -> Point {
     at
 }
 
-/// Adds the row of a matrix.
+/// Adds the entries of a row.
 pub fn add_row((columns, values): (&[u32], &[f64]), entries: &mut RowEntries) {
     for (&column, &value) in columns.iter().zip(values) {
         entries.add(column as usize, value);
     }
 }
 
-/// What fills a cell; beyond the domain is a symmetry plane.
+/// Content of a cell; outside the domain is a symmetry plane.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cell {
     Air,
@@ -72,7 +72,7 @@ pub struct Case {
     pub contrast: f64,
     /// Bulk modulus, Pa; infinite for an incompressible liquid.
     pub bulk_modulus: f64,
-    /// Whether the walls hold the liquid.
+    /// Whether the liquid sticks to the walls.
     pub friction: bool,
     /// Open height of the cells in front of the closing body, as a fraction of a cell.
     pub sliver: f64,
@@ -242,7 +242,7 @@ impl Stokes {
         let row = self.unknown(face) as usize;
         entries.add(row, INERTIA / case.viscosity * case.liquid(face)[0]);
         let mut rhs = 0.0;
-        // A stress that grows with every second face's velocity and falls with that of the others.
+        // The stress has a positive coefficient for every second face and a negative one for the others.
         let mut add = |weight: f64, faces: &[Face]| {
             let mine = faces.iter().position(|&other| other == face);
             for (i, &other) in faces.iter().enumerate() {
@@ -284,7 +284,7 @@ impl Stokes {
         rhs
     }
 
-    /// Friction of the walls beside a face, each half of which sees its own; returns what the upper block drags it by.
+    /// Friction of the walls beside a face, for each half of it; returns the drag of the upper block.
     fn walls(&self, face: Face, row: usize, entries: &mut RowEntries) -> f64 {
         let ((axis, at), case) = (face, &self.case);
         let mut rhs = 0.0;

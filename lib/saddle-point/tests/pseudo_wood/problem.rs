@@ -1,4 +1,4 @@
-//! A system for the solver by itself, and its parts.
+//! A test system for the solver, with its arrays.
 
 use saddle_point::{Csr, RowEntries, SaddleSystem, SolveError, VelocityBlock};
 
@@ -23,7 +23,7 @@ impl Problem {
         Stokes::new(case).assemble()
     }
 
-    /// Of fluxes `g`, with friction of `stiffness` at faces and nothing else, of cells that yield by `c`, at rest.
+    /// A problem at rest with fluxes `g`, only friction of `stiffness` at the faces, and compressibility `c` of the cells.
     pub fn still(g: Csr<f64>, stiffness: impl Fn(usize) -> f64 + Sync, c: f64) -> Self {
         let (faces, cells) = (g.n_columns(), g.n_rows());
         let fill = |row: usize, entries: &mut RowEntries| entries.add(row, stiffness(row));

@@ -1,4 +1,4 @@
-//! Against dense factorisation.
+//! The solver against dense factorisation.
 
 use nalgebra::{DMatrix, DVector};
 use saddle_point::Csr;

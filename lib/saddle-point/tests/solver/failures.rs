@@ -16,7 +16,7 @@ fn the_solution_is_its_own_guess() {
     assert_eq!(u, kept);
 }
 
-/// What a changed problem says after three iterations, and its cause.
+/// The error of a changed problem after three iterations, and its cause.
 fn failure(change: fn(&mut Problem)) -> (SolveError, Cause) {
     let mut problem = Problem::new(&SMALL).unwrap();
     change(&mut problem);
@@ -83,8 +83,8 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
     assert_eq!(cause, Cause::Unbalanced { cells: 20 });
 }
 
-/// Liquid under a pressure from before, in a row of cells from wall to wall, that walls make flow slowly: what
-/// compression carries over is five hundred times as much.
+/// A row of cells under pressure from the step before, with slowly moving walls: the carried volume is five hundred times
+/// the displaced one.
 #[test]
 fn a_slow_flow_under_pressure_is_solved_to_the_tolerance() {
     let (c, pressure, moved) = (1e-3_f64, 1e2, 1e-3);
@@ -118,7 +118,7 @@ fn what_makes_a_system_unsolvable_is_named() {
     assert_eq!(failure(|_| ()).1, Cause::Unknown);
 }
 
-/// Indices are of 32 bits, of which the last number is kept free.
+/// Indices have 32 bits, and the largest one is reserved.
 #[test]
 fn a_matrix_too_wide_for_its_indices_is_refused() {
     let wide = |columns: usize| Csr::<f64>::assemble(1, columns, |_, entries| entries.add(7, 1.0));

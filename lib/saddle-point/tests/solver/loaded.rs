@@ -9,8 +9,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Friction of so many times a face's own resistance between the closing block and the faces that it drags; the momentum that
-/// it drags by at unit speed.
+/// Couples the closing block to the faces that it drags, with a friction of `times` the face's own resistance. Returns the
+/// momentum of the drag at unit speed.
 fn bind(problem: &mut Problem, times: f64) -> Vec<f64> {
     let bound: Vec<f64> = (problem.b.iter().zip(problem.a.diagonal()))
         .map(|(b, own)| if *b == 0.0 { 0.0 } else { times * own })
@@ -27,11 +27,11 @@ fn bind(problem: &mut Problem, times: f64) -> Vec<f64> {
     bound.iter().map(|bound| -bound).collect()
 }
 
-/// The problem is driven by the closing block alone, so its right-hand side is that of unit speed. Under load there are
-/// forces on the liquid at the block, too.
+/// The closing block alone drives the problem, so its right-hand side is that of unit speed. Under load there are also
+/// forces on the liquid at the block.
 #[test]
 fn the_speed_that_a_force_drives() {
-    // Bound by so much, what drags liquid and block by each other cancels but for a ten-thousandth.
+    // With such strong coupling the mutual drag of liquid and block cancels to a ten-thousandth.
     for times in [0.0, 1e4] {
         drives(times);
     }
@@ -54,7 +54,7 @@ fn drives(times: f64) {
         ..problem.system()
     };
     let known = solver.solve(&moving, &mut u, &mut p).unwrap();
-    // Any that keeps the whole resistance positive, as that of the walls themselves does.
+    // Any value that keeps the whole resistance positive, as that of the walls does.
     let resistance = 2.0 * dot(&dragged, &u) - bound.iter().sum::<f64>();
     let force_on = |u: &[f64], p: &[f64]| dot(&problem.volume_source, p) - dot(&problem.b, u);
     let force_per_speed = force_on(&u, &p) + resistance;
@@ -95,7 +95,7 @@ fn drives(times: f64) {
     );
     assert!((speed / wanted - 1.0).abs() < 1e-5);
     assert!(error < 1e-4 * largest);
-    // The preconditioner eliminates the speed: it costs no iterations, but for rounding, which moves so much by a fifth.
+    // The preconditioner eliminates the speed, which costs no iterations except by rounding, at strong coupling up to a fifth.
     assert!(report.iterations() <= known.iterations() + known.iterations() / 4 + 2);
 
     let pulling = Load {

@@ -1,5 +1,5 @@
-//! The linear solver on synthetic wood: against dense factorisation, over sizes, materials and
-//! threads, and what it does when a system cannot be solved.
+//! The linear solver on synthetic wood: against dense factorisation, over sizes, materials and threads, and with systems
+//! that cannot be solved.
 
 mod dense;
 mod failures;
@@ -52,7 +52,7 @@ fn distance(x: &[f64], y: &[f64]) -> f64 {
     (square(&|i| x[i] - y[i]) / square(&|i| y[i])).sqrt()
 }
 
-/// Two rows of cells that yield by `c`, the first closed, the second open at its end, with friction of 2 at faces.
+/// Two rows of cells with compressibility `c` and friction 2 at the faces; the first is closed, the second open at its end.
 fn pockets(closed: usize, open: usize, c: f64) -> Problem {
     let cells = closed + open;
     let g = Csr::assemble(cells, cells, |cell, entries| {

@@ -1,4 +1,4 @@
-//! Iterations over sizes and materials; the same result by any number of threads.
+//! Iterations over sizes and materials; the same result with any number of threads.
 
 use crate::pseudo_wood::{Case, Problem};
 use crate::{MEDIUM, solve};
@@ -59,9 +59,8 @@ fn materials_walls_and_slivers() {
     }
 }
 
-/// The problem with a cell of hardly any volume behind every `every`-th face to air, through which it takes
-/// `area` faces' worth: as where a wall sweeps over liquid that a wall's steps have cut off from all sides
-/// but one.
+/// The problem with a sliver, a cell of almost no volume, behind every `every`-th face to air, with a flux area of `area`
+/// faces. Such cells arise where a wall sweeps over liquid that the steps of another wall cut off on all sides but one.
 fn with_swept_slivers(mut problem: Problem, every: usize, area: f64) -> Problem {
     let (cells, faces) = (problem.g.n_rows(), problem.g.n_columns());
     let sides = problem.g.transpose();
@@ -93,8 +92,8 @@ fn with_swept_slivers(mut problem: Problem, every: usize, area: f64) -> Problem 
     problem
 }
 
-/// Such slivers answer a pressure more than a full cell does: with the viscous part of the Schur complement
-/// as large there as elsewhere cycles of the iteration stagnated, at full size to 200 iterations.
+/// Slivers respond to a pressure more than a full cell. With the full viscous part of the Schur complement there, the
+/// iteration stagnates, at full size up to 200 iterations.
 #[test]
 fn slivers_swept_by_walls_cost_few_iterations() {
     for (every, area) in [(7, 1.0), (7, 2.75), (3, 2.75), (7, 0.1)] {

@@ -1,11 +1,11 @@
-//! Liquid that stands under pressure, or nearly.
+//! Liquid at rest, or nearly, under pressure.
 
 use saddle_point::{Csr, Load, SaddleReport, SaddleSolver, SaddleSystem};
 
 use crate::pseudo_wood::{Problem, add_row};
 use crate::{options, pockets};
 
-/// Velocities, pressures and speed of a system under a load from the guess `p`, and what it took.
+/// Velocities, pressures and speed of a system under a load from the guess `p`, and the report.
 fn loaded(
     system: &SaddleSystem,
     load: &Load,
@@ -18,8 +18,8 @@ fn loaded(
     (u, p, speed, report.unwrap())
 }
 
-/// A wall drives liquid slowly along a row of cells into a void with gas, which pushes back a million times as
-/// hard as that takes, and which the liquid's pressure from before balances.
+/// A wall drives liquid slowly along a row of cells against gas. The pressure of the gas is a million times that of the flow
+/// and is balanced by the liquid's pressure from the step before.
 #[test]
 fn a_slow_flow_against_gas_is_solved_to_the_tolerance() {
     let (moved, pressure, faces) = (1e-3, 1e3, 40);
@@ -44,8 +44,8 @@ fn a_slow_flow_against_gas_is_solved_to_the_tolerance() {
     assert!(error < 2e-3);
 }
 
-/// Menisci pull at both ends of a row of cells, at one of them a ten-thousandth more; the guess rests under their mean, or
-/// flows a thousand times too fast. A body on some of it, under no force, is drawn along or not.
+/// Menisci pull at both ends of a row of cells, at one a ten-thousandth more. The guess is at rest under their mean, or flows
+/// a thousand times too fast. A body without force on part of the row is drawn along, or there is none.
 #[test]
 fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
     let (cells, pull, more) = (60, 10.0, 1e-3);
@@ -90,8 +90,8 @@ fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
     }
 }
 
-/// A wall under a force on a row of cells that is closed: all of them come to the pressure of the force, whether
-/// what the liquid gives way by is lost in double precision or in single precision.
+/// A wall under a force on a closed row of cells: all cells come to the pressure of the force, whether the compression is lost
+/// in single or even in double precision.
 #[test]
 fn sealed_liquid_comes_to_the_pressure_of_its_load() {
     let cells = 200;
@@ -99,7 +99,7 @@ fn sealed_liquid_comes_to_the_pressure_of_its_load() {
         let mut problem = pockets(cells, 0, c);
         problem.carried.fill(c);
         let (rest, _) = problem.rest();
-        // Without the load the volume that a wall at rest takes up is all that compresses it.
+        // Without the load only the volume displaced by a wall at rest compresses it.
         let taken = SaddleSystem {
             volume_source: &problem.c,
             ..problem.system()
@@ -126,13 +126,13 @@ fn sealed_liquid_comes_to_the_pressure_of_its_load() {
             report.iterations()
         );
         assert!((p[cells - 1] / 3.0 - 1.0).abs() < 2e-3);
-        // The smaller volume is rounding of the pressures, and moves nothing.
+        // The smaller volume is within the rounding of the pressures.
         assert!((speed - volume).abs() < 2e-3 * volume.max(1e-11));
     }
 }
 
-/// Beside liquid under a load stands sealed liquid that the load's body does not touch, or carries along, and that
-/// loses volume: its pressure falls by that over its compressibility, and the load is borne by the other.
+/// Liquid under a load, beside sealed liquid that loses volume and that the body does not touch, or carries along. The
+/// pressure of the sealed liquid falls by lost volume over compressibility; the other liquid bears the load.
 #[test]
 fn sealed_liquid_beside_a_load_keeps_its_own_pressure() {
     let cells = 100;
@@ -164,7 +164,7 @@ fn sealed_liquid_beside_a_load_keeps_its_own_pressure() {
     }
 }
 
-/// Much liquid that one narrow opening relieves is not sealed.
+/// A large volume of liquid with one narrow opening is not sealed.
 #[test]
 fn an_opening_relieves_much_liquid() {
     let (n, closed) = (300, usize::MAX);

@@ -1,27 +1,26 @@
-//! Parts that a run does not compute, and why: the stages that its scheme does without, and the physics
-//! that both schemes, or the implicit one, leave out.
+//! What a run leaves out, and why: stages that its scheme does without, and physics that is not modelled.
 
 use physics::{Boundary, Dimensions, Regime, Stages};
 
 use crate::case::{AirTable, Case, SchemeName};
 use crate::resolve::Setup;
 
-/// Of a run with air that mirror or periodic sides close off.
+/// Name of the remark on air that mirror or periodic sides close off.
 pub(crate) const BEYOND_SIDES: &str = "beyond the sides";
-/// What that does to WP.
+/// Uncertainty of WP due to such air.
 pub(crate) const UNCERTAIN: &str = "uncertain by its difference from the same run without [air]";
 
-/// What is to be known of a run: what it does without, lumens of few cells.
+/// A remark on a run: something it leaves out, or lumens of few cells.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Remark {
-    /// What.
+    /// Subject.
     pub what: &'static str,
-    /// Why, in a few words with numbers.
+    /// Reason, in a few words with numbers.
     pub why: String,
 }
 
-/// Everything that a run with `stages` leaves out.
-pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Remark> {
+/// Everything that a run leaves out; `stages` are those of its scheme.
+pub(crate) fn omissions(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Remark> {
     let regime = Regime::of(&setup.scene, &setup.liquid);
     let absent = |stage: &physics::Stage| {
         let why = stage.absent.clone()?;
@@ -41,7 +40,7 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Remar
         Some(air) if closes_off(air, setup) => add(
             BEYOND_SIDES,
             format!(
-                "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is {UNCERTAIN}; leak_time is for lumens that go on"
+                "the sides of the specimen close off the air in lumens, which drives liquid into the few open ones: WP is {UNCERTAIN}; give leak_time for lumens that continue beyond the sides"
             ),
         ),
         Some(_) => {}
@@ -81,7 +80,7 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Remar
     list
 }
 
-/// Whether air stays where the specimen ends: a side along the bond is no open one, and walls leak later than the run ends.
+/// Whether the sides of the specimen trap air: a side along the bond is not open, and the leak time exceeds the run.
 fn closes_off(air: &AirTable, setup: &Setup) -> bool {
     let [x, _, z] = setup.scene.boundary;
     let solid = setup.scene.dimensions == Dimensions::Three;

@@ -1,4 +1,4 @@
-//! Ends of a run: which is reached, how far a step may go, and how far the run is on the way to each.
+//! End conditions of a run: whether one is reached, how far a step may go, and the progress towards each.
 
 use physics::{Cure, Scheme, StepLimit, Stop};
 
@@ -9,42 +9,42 @@ use crate::resolve::Setup;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum End {
-    /// The adherends are back in place.
+    /// The clamp has closed the bond.
     Closed,
-    /// The time asked for is reached.
+    /// The requested time is reached.
     Time,
     /// All stages of the press programme are over.
     Programme,
-    /// Closure did not come before the time limit: the pressure limit holds the gap open.
+    /// The time limit came before closure: the pressure limit holds the gap open.
     TimeLimit,
-    /// The adhesive has set and flows no more.
+    /// The adhesive has set.
     Set,
     /// Stopped by the user; can be resumed.
     Interrupted,
 }
 
-/// An end that a run may come to: what is said of it, in which `{}` stands for the time left, and the part of the way
-/// there that is done. Of several the last one comes at the latest.
-pub type Ahead = (&'static str, f64);
+/// A possible end of a run: a text in which `{}` stands for the time left, and the fraction done. Of several, the last one
+/// is the latest.
+pub type PossibleEnd = (&'static str, f64);
 
-/// The ends of a run.
-pub(crate) struct Ends<'a> {
+/// The end conditions of a run.
+pub(crate) struct EndConditions<'a> {
     setup: &'a Setup,
-    /// When the adhesive will have set, s.
+    /// Time at which the adhesive sets, s.
     set: Option<f64>,
 }
 
-impl<'a> Ends<'a> {
-    pub(crate) fn of(setup: &'a Setup) -> Self {
+impl<'a> EndConditions<'a> {
+    pub(crate) fn new(setup: &'a Setup) -> Self {
         Self {
             setup,
             set: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
         }
     }
 
-    /// The end that a run has come to.
+    /// The end condition that is met, if any.
     pub(crate) fn reached(&self, clock: &Clock, scheme: &dyn Scheme) -> Option<End> {
-        // A relative hair, so that a sum of many steps that should meet the end does.
+        // A tolerance for the rounding of a sum of many steps.
         let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
         if scheme.has_set() || self.set.is_some_and(|set| reached(clock.time_s, set)) {
             return Some(End::Set);
@@ -64,16 +64,16 @@ impl<'a> Ends<'a> {
         }
     }
 
-    /// When a run ends at the latest, s.
+    /// Latest end of the run, s.
     fn latest_s(&self) -> f64 {
         let limit = self.setup.time_limit_s;
         self.set.map_or(limit, |set| limit.min(set))
     }
 
-    /// How far the next step may go.
+    /// The limits of the next step.
     pub(crate) fn limit(&self, clock: &Clock) -> StepLimit {
         if !self.setup.scene.programme.is_empty() {
-            // Its stages have their own ends.
+            // The stages of a press programme limit their steps themselves.
             return StepLimit {
                 time_s: (self.set).map_or(f64::INFINITY, |set| set - clock.time_s),
                 travel_m: f64::INFINITY,
@@ -88,9 +88,9 @@ impl<'a> Ends<'a> {
         }
     }
 
-    /// The ends that a run may come to. A pressure limit slows a clamp down more and more, and may hold it: when it
-    /// has closed is known from below alone, and the time limit is the latest end.
-    pub(crate) fn ahead(&self, clock: &Clock) -> Vec<Ahead> {
+    /// The possible ends of the run. A pressure limit slows the clamp down more and more and may stop it, so the time to
+    /// closure is only a lower bound, and the time limit is the latest end.
+    pub(crate) fn possible_ends(&self, clock: &Clock) -> Vec<PossibleEnd> {
         let scene = &self.setup.scene;
         let latest_s = self.latest_s();
         let time = clock.time_s / latest_s;
@@ -101,8 +101,7 @@ impl<'a> Ends<'a> {
             return vec![(if sets { set } else { time_is_up }, time)];
         };
         if !scene.programme.is_empty() {
-            // Stages go on where the clamp has come to its end. Their steps are of microseconds and of minutes, so that none
-            // tells the time of those to come.
+            // Stages continue after closure. Steps last from microseconds to minutes, so no wall time can be predicted.
             let set = "of the time until it sets";
             return vec![(if sets { set } else { "of the programme's time" }, time)];
         }
@@ -129,7 +128,7 @@ mod tests {
     use super::*;
     use crate::verdict::tests::setup;
 
-    /// The part of the way closed was taken for that of the time, too, where a limit may hold the clamp.
+    /// With a pressure limit, closure and time are separate fractions.
     #[test]
     fn a_clamp_with_a_limit_closes_at_the_earliest_and_ends_at_its_time_limit_at_the_latest() {
         let mut setup = setup();
@@ -146,7 +145,7 @@ mod tests {
             });
             (setup.scene.stop, setup.time_limit_s) = (stop, limit_s);
             setup.scene.programme = programme;
-            Ends::of(&setup).ahead(&clock)
+            EndConditions::new(&setup).possible_ends(&clock)
         };
         let hold = PressStage {
             kind: Press::Hold,

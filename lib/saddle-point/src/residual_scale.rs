@@ -1,4 +1,4 @@
-//! The measure of residuals.
+//! The scale to which residuals are relative.
 
 use crate::SolveError;
 use crate::fgmres::Limits;
@@ -6,28 +6,28 @@ use crate::options::SaddleOptions;
 use crate::system::SaddleSystem;
 use crate::vector::norm;
 
-/// Part of a solution's size below which a residual is rounding.
+/// Rounding of a residual, relative to the norm of the solution.
 const ROUNDING: f64 = 1e-14;
 
-/// Part of slow flow that is none: liquid that has come to rest is not solved to a part of ever smaller numbers.
+/// Fraction of slow flow that counts as rest, so that liquid at rest is not solved to ever smaller residuals.
 const REST: f64 = 1e-6;
 
-/// What residuals are measured by.
-pub(crate) struct Measure<'a> {
+/// The scale of residuals of a system.
+pub(crate) struct ResidualScale<'a> {
     system: &'a SaddleSystem<'a>,
-    /// Least forces of a flow that count where forces stand.
+    /// Least scale of the forces of the flow if there are standing forces.
     least: f64,
-    /// What residuals are measured by where nothing moves.
+    /// Scale if nothing moves.
     still: f64,
-    /// Forces of flow that is none.
+    /// Scale of the forces of liquid at rest.
     rest: f64,
-    /// Part of a solution below which they are rounding, over the tolerance.
+    /// Relative rounding of residuals over the tolerance.
     rounding: f64,
 }
 
-impl<'a> Measure<'a> {
+impl<'a> ResidualScale<'a> {
     pub(crate) fn new(system: &'a SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
-        // Liquid that rests without a face to air asks for as much less once more.
+        // Closed liquid at rest, without a face to air, has no flow to set the scale.
         let closed = options.tolerance.powi(2) * system.known_forces();
         Self {
             system,
@@ -41,8 +41,8 @@ impl<'a> Measure<'a> {
         }
     }
 
-    /// The measure at `x`, of what moves the liquid, `known`, and where forces stand of those of the flow; and no residual is
-    /// smaller than the rounding of what stands.
+    /// The scale at the solution `x`: the norm of what moves the liquid, `known`, and, with standing forces, of the forces of the
+    /// flow. It is not below the rounding of `x`.
     pub(crate) fn of(&self, known: f64, x: &[f64]) -> f64 {
         let flow = match self.system.standing {
             [] => 0.0,
@@ -55,9 +55,9 @@ impl<'a> Measure<'a> {
         size.max(self.rounding * norm(x)).max(self.rest)
     }
 
-    /// Residuals of `solve`, which where forces stand is asked again with the measure of what it found: one of a
-    /// guess at rest would ask for too much, one of a guess that flows for too little.
-    pub(crate) fn stages(
+    /// Runs `solve` and returns its residuals. With standing forces it is run again with the scale of the solution found, until
+    /// no iteration is needed: the scale of a guess at rest is too small, that of a guess that flows too large.
+    pub(crate) fn solve_rescaled(
         &self,
         options: &SaddleOptions,
         mut solve: impl FnMut(&mut Limits) -> Result<Vec<f64>, SolveError>,
@@ -65,7 +65,7 @@ impl<'a> Measure<'a> {
         let stands = !self.system.standing.is_empty();
         let mut limits = Limits {
             tolerance: options.tolerance,
-            size: 0.0,
+            scale: 0.0,
             enough: if stands { options.tolerance } else { 0.0 },
             max_iterations: options.max_iterations,
         };

@@ -1,98 +1,97 @@
-//! A bond before pressing from wood that was never bonded: one piece cut, or two laid up.
+//! A bond before pressing from undamaged wood: one piece cut, or two pieces laid up.
 
 use particle_file::{BitGrid, BitsRef};
 use units::Axis;
 
 use crate::build::{Closed, layer_at, whole_cells};
-use crate::faces::{Facing, across, air, depths, describe, without_islands};
+use crate::faces::{Facing, across, air_layers, depths, measure_face, without_islands};
 use crate::placed::{corner, layers};
-use crate::{Bond, Error, Opening, Placed};
+use crate::{Bond, Error, Opening, PlacedVoxels};
 
-/// What the adherends are made of.
+/// The wood of the adherends.
 #[derive(Clone, Copy, Debug)]
 pub enum Pieces<'a> {
     /// One piece, cut at this coordinate (m), rounded to the nearest face between voxels.
-    Cut(Placed<'a>, f64),
+    Cut(PlacedVoxels<'a>, f64),
     /// Two pieces; the high side of the bottom one and the low side of the top one are glued.
     Two {
         /// Low-coordinate side.
-        bottom: Placed<'a>,
+        bottom: PlacedVoxels<'a>,
         /// High-coordinate side.
-        top: Placed<'a>,
+        top: PlacedVoxels<'a>,
     },
 }
 
 /// How to lay up undamaged wood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layup {
-    /// How far and how well the slab is to fit.
+    /// Gap and slab.
     pub opening: Opening,
     /// Adhesive volume over bond area, m.
     pub slab_m: f64,
-    /// Quarter turns of the top piece about the bond normal, right-handed: one as in plywood.
+    /// Right-handed quarter turns of the top piece about the bond normal; 1 as in plywood.
     pub quarters: usize,
-    /// Whether pieces of unequal cross-section are cropped to what they share, from their low
-    /// corners; else they are refused.
+    /// Whether to crop pieces of unequal cross-section to their common part, aligned at their low corners; else they are
+    /// refused.
     pub crop: bool,
-    /// Whether wood that floats before a face is left out.
+    /// Whether to remove loose wood in front of a face.
     pub drop_islands: bool,
 }
 
-/// Lays up a bond line of undamaged wood before pressing.
+/// Builds the bond line before pressing from undamaged wood.
 ///
-/// Closed are the pieces where the top one, lowered along the normal, first touches the bottom
-/// one: `gap_m` of the bond is the way to there. The slab is flat and touches the highest wood
-/// of both.
+/// The pieces are closed when the top one, lowered along the normal, first touches the bottom one; `gap_m` of the bond is
+/// the distance to there. The slab is flat and touches the outermost wood of both.
 ///
 /// # Errors
-/// A plane outside; pieces of other voxels, of unequal width or without wood, which never meet or hold less than the slab; and
-/// those of the slab and the gap.
+/// A plane outside the piece; pieces with different voxels, of unequal width or without wood; pieces that never touch, or
+/// whose voids hold less than the slab; a slab or gap that does not fit.
 pub fn lay_up(pieces: &Pieces, layup: &Layup) -> Result<Bond, Error> {
     let normal = layup.opening.normal;
     let n = normal.index();
-    let (origin_m, voxel_m, bottom, mut top) = parts(pieces, normal)?;
+    let (origin_m, voxel_m, bottom, mut top) = split_pieces(pieces, normal)?;
     for _ in 0..layup.quarters {
-        top = turned(&top, normal);
+        top = quarter_turn(&top, normal);
     }
-    let (bottom, top) = fitted(bottom, top, layup)?;
+    let (bottom, top) = to_equal_width(bottom, top, layup)?;
     let (kept, trimmed) = whole_cells(bottom.dims(), &layup.opening);
     let face = |piece: &BitGrid, facing, name| {
         let mut dims = kept;
         dims[n] = piece.dims()[n];
-        let cleaned = cleaned(corner(piece.view(), dims), layup, facing);
+        let cleaned = clean(corner(piece.view(), dims), layup, facing);
         let cleaned =
             cleaned.ok_or_else(|| Error::unfit(format!("the {name} piece holds no wood")))?;
-        Ok((describe(cleaned.view(), normal, facing), cleaned))
+        Ok((measure_face(cleaned.view(), normal, facing), cleaned))
     };
     let (low, bottom) = face(&bottom, Facing::Up, "bottom")?;
     let (high, top) = face(&top, Facing::Down, "top")?;
 
     let area: u64 = (0..3).filter(|&a| a != n).map(|a| kept[a] as u64).product();
     let height = bottom.dims()[n];
-    let (touch, severed) = touch(bottom.view(), top.view(), normal)?;
+    let (touch, severed) = first_contact(bottom.view(), top.view(), normal)?;
     let plane = (height - low.level + touch + high.level) / 2;
-    let void_m = (void(&bottom) + void(&top)) as f64 / area as f64 * voxel_m;
+    let void_m = (void_voxels(&bottom) + void_voxels(&top)) as f64 / area as f64 * voxel_m;
     let closed = Closed {
         origin_m,
         voxel_m,
         bottom,
         top,
-        touch,
+        top_begins: touch,
         plane,
-        free: [plane as i64 - height as i64, touch as i64 - plane as i64],
+        free_layers: [plane as i64 - height as i64, touch as i64 - plane as i64],
         severed,
-        room_m: void_m - (height - touch) as f64 * voxel_m,
+        void_m: void_m - (height - touch) as f64 * voxel_m,
         adhesive_in: layup.slab_m / voxel_m * area as f64,
     };
     Ok(Bond {
         trimmed,
         faces: Some([low, high]),
-        ..closed.opened(&layup.opening)?
+        ..closed.open(&layup.opening)?
     })
 }
 
 /// Low corner, voxel edge and wood of the bottom and the top piece.
-fn parts(pieces: &Pieces, normal: Axis) -> Result<([f64; 3], f64, BitGrid, BitGrid), Error> {
+fn split_pieces(pieces: &Pieces, normal: Axis) -> Result<([f64; 3], f64, BitGrid, BitGrid), Error> {
     let n = normal.index();
     match *pieces {
         Pieces::Cut(wood, plane_m) => {
@@ -102,7 +101,7 @@ fn parts(pieces: &Pieces, normal: Axis) -> Result<([f64; 3], f64, BitGrid, BitGr
             Ok((wood.origin_m, wood.voxel_m, bottom, top))
         }
         Pieces::Two { bottom, top } => {
-            // Edges from the metadata of two scans may differ in their last digits.
+            // Voxel edges in the metadata of two scans may differ in the last digits.
             if (top.voxel_m / bottom.voxel_m - 1.0).abs() > 1e-6 {
                 return Err(Error::new(format!(
                     "the voxels of the bottom piece have edges of {:.6} um and those of the top piece {:.6} um: both must be the same, so scale one stack to the other's",
@@ -117,8 +116,8 @@ fn parts(pieces: &Pieces, normal: Axis) -> Result<([f64; 3], f64, BitGrid, BitGr
     }
 }
 
-/// `bits` turned about `normal` by a quarter, right-handed: it takes the first axis of [`across`] to the second.
-fn turned(bits: &BitGrid, normal: Axis) -> BitGrid {
+/// `bits` after a right-handed quarter turn about `normal`, from the first axis of [`across`] to the second.
+fn quarter_turn(bits: &BitGrid, normal: Axis) -> BitGrid {
     let [a, b] = across(normal);
     let from = bits.dims();
     let mut dims = from;
@@ -131,7 +130,11 @@ fn turned(bits: &BitGrid, normal: Axis) -> BitGrid {
     })
 }
 
-fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitGrid), Error> {
+fn to_equal_width(
+    bottom: BitGrid,
+    top: BitGrid,
+    layup: &Layup,
+) -> Result<(BitGrid, BitGrid), Error> {
     let [a, b] = across(layup.opening.normal);
     let [low, high] = [&bottom, &top].map(|piece| [piece.dims()[a], piece.dims()[b]]);
     if low == high {
@@ -153,20 +156,19 @@ fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitG
     Ok((cropped(bottom), cropped(top)))
 }
 
-/// A piece without islands, if they are to go, and without the air before its face; `None`
-/// without wood.
-fn cleaned(piece: BitGrid, layup: &Layup, facing: Facing) -> Option<BitGrid> {
-    let piece = trimmed(piece, layup.opening.normal, facing)?;
+/// A piece without the air in front of its face and, if asked for, without islands; `None` without wood.
+fn clean(piece: BitGrid, layup: &Layup, facing: Facing) -> Option<BitGrid> {
+    let piece = without_air(piece, layup.opening.normal, facing)?;
     if !layup.drop_islands {
         return Some(piece);
     }
-    let level = describe(piece.view(), layup.opening.normal, facing).level;
+    let level = measure_face(piece.view(), layup.opening.normal, facing).level;
     let piece = without_islands(piece, layup.opening.normal, facing, level);
-    trimmed(piece, layup.opening.normal, facing)
+    without_air(piece, layup.opening.normal, facing)
 }
 
-fn trimmed(piece: BitGrid, normal: Axis, facing: Facing) -> Option<BitGrid> {
-    let (n, air) = (normal.index(), air(piece.view(), normal, facing)?);
+fn without_air(piece: BitGrid, normal: Axis, facing: Facing) -> Option<BitGrid> {
+    let (n, air) = (normal.index(), air_layers(piece.view(), normal, facing)?);
     let height = piece.dims()[n];
     let wood = match facing {
         Facing::Up => 0..height - air,
@@ -175,19 +177,18 @@ fn trimmed(piece: BitGrid, normal: Axis, facing: Facing) -> Option<BitGrid> {
     Some(layers(piece.view(), n, wood))
 }
 
-fn void(piece: &BitGrid) -> u64 {
+fn void_voxels(piece: &BitGrid) -> u64 {
     let voxels: u64 = piece.dims().iter().map(|&d| d as u64).product();
     voxels - piece.count()
 }
 
-/// Layer of the bottom piece at which the top one, lowered along the normal, comes to rest, and
-/// the number of columns that touch there.
-fn touch(bottom: BitsRef, top: BitsRef, normal: Axis) -> Result<(usize, u64), Error> {
+/// Layer of the bottom piece at which the lowered top piece begins when they touch, and the number of touching columns.
+fn first_contact(bottom: BitsRef, top: BitsRef, normal: Axis) -> Result<(usize, u64), Error> {
     let height = bottom.dims()[normal.index()];
     let low = depths(bottom, normal, Facing::Up);
     let high = depths(top, normal, Facing::Down);
     let apart = || (low.iter().zip(&high)).filter_map(|(l, h)| Some((*l)? + (*h)?));
-    // The pieces go into one another by the least of what the columns leave free.
+    // The pieces can interlock by the least free depth of all columns.
     match apart().min() {
         Some(least) if least <= height => {
             let touching = apart().filter(|&free| free == least).count() as u64;

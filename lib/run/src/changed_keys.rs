@@ -1,17 +1,17 @@
-//! `--set`: keys of a case changed from the command line.
+//! `--set`: changes keys of a case from the command line.
 
 use std::path::Path;
 
 use crate::case::{Case, case_text};
 use crate::failure::RunFailure;
 
-/// The text of the case file at `path` with `changes` (`key=value`), which parses as a case; without comments and in one
-/// order of keys.
+/// The case file at `path` with `changes` (`key=value`) applied, checked to be a valid case. Comments are dropped and keys
+/// are sorted.
 ///
 /// # Errors
-/// [`RunFailure::Usage`]: a file that cannot be read, is no case or does not become one.
+/// [`RunFailure::Usage`]: the file cannot be read, or is no valid case before or after the changes.
 pub fn changed_case(path: &Path, changes: &[String]) -> Result<String, RunFailure> {
-    let text = changed(&case_text(path)?, path, changes)?;
+    let text = with_changes(&case_text(path)?, path, changes)?;
     Case::parse(&text, path)?;
     let plain = toml::from_str::<toml::Table>(&text).ok();
     let plain = plain.and_then(|table| toml::to_string(&table).ok());
@@ -28,7 +28,7 @@ pub fn value_at<'a>(place: &'a toml::Value, path: &str) -> Option<&'a toml::Valu
 
 /// The case text with `changes` applied; the text itself when there are none, so that errors
 /// keep the user's own line numbers.
-pub(crate) fn changed(
+pub(crate) fn with_changes(
     original: &str,
     path: &Path,
     changes: &[String],
@@ -45,7 +45,7 @@ pub(crate) fn changed(
         let (key, value) = change
             .split_once('=')
             .ok_or_else(|| refuse("KEY=VALUE is needed"))?;
-        // A word that is no TOML value is meant as a string: --set grid.shape=linear.
+        // A bare word is taken as a string: --set grid.shape=linear.
         let value = match toml::from_str::<toml::Table>(&format!("v = {value}")) {
             Ok(mut table) => table.remove("v").unwrap_or_else(|| value.into()),
             Err(_) => value.into(),
@@ -57,7 +57,7 @@ pub(crate) fn changed(
             .ok_or_else(|| refuse("the key is empty"))?;
         let mut place = &mut root;
         for part in path {
-            place = enter(place, part).map_err(|why| refuse(&why))?;
+            place = child_mut(place, part).map_err(|why| refuse(&why))?;
         }
         match (place, last.parse::<usize>()) {
             (toml::Value::Array(list), Ok(i)) if i < list.len() => list[i] = value,
@@ -68,7 +68,7 @@ pub(crate) fn changed(
         }
     }
     let text = toml::to_string(&root).map_err(|e| RunFailure::Usage(e.to_string()))?;
-    // Lines of this text are nobody's: a refusal names the changes instead.
+    // The user never saw this text, so the message names the changes instead of a line.
     match toml::from_str::<Case>(&text) {
         Ok(_) => Ok(text),
         Err(error) => Err(RunFailure::Usage(format!(
@@ -79,10 +79,10 @@ pub(crate) fn changed(
     }
 }
 
-/// The value below `place` at `part`: a key of a table, made if absent, or an index of an array.
-fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Value, String> {
+/// The value at `part` of `place`: a key of a table, which is created if absent, or an index of an array.
+fn child_mut<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Value, String> {
     match place {
-        // No key is a number: a list is missing.
+        // No key is a number: an index here means that the array is missing.
         toml::Value::Table(table) if part.parse::<usize>().is_err() => Ok(table
             .entry(part)
             .or_insert_with(|| toml::Table::new().into())),

@@ -1,4 +1,4 @@
-//! A tilted specimen, turned.
+//! Levelling of a tilted specimen.
 
 use bondline::Specimen;
 use particle_file::{BitGrid, BitsRef};
@@ -7,8 +7,8 @@ use units::Axis;
 use crate::{State, Tilt, fit};
 
 /// A specimen turned so that its bond plane is level.
-pub struct Level {
-    /// How its bond plane was turned.
+pub struct LevelledSpecimen {
+    /// Tilt of its bond plane before.
     pub tilt: Tilt,
     /// The wood in the new box.
     pub wood: BitGrid,
@@ -16,14 +16,15 @@ pub struct Level {
     pub adhesive: BitGrid,
 }
 
-/// Turns `specimen` about its middle until the plane of [`crate::Reference::Fit`] is level across `normal`. Each voxel takes what
-/// is at its centre; the box is as much smaller as it has to be to lie within the specimen.
+/// Turns `specimen` about its middle until the plane of [`crate::Reference::Fit`] is level across `normal`. Each new voxel
+/// takes the material at its centre; the new box is small enough to lie within the specimen.
 ///
 /// # Errors
-/// A sentence: no bond line, a plane that is not known well enough, or a box too thin to be turned so far.
-pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
+/// A sentence: no bond line, a plane that is not known well enough, or a specimen too thin to be turned so far.
+pub fn level(specimen: &Specimen, normal: Axis) -> Result<LevelledSpecimen, String> {
     let wood = specimen.wood();
-    let line = bondline::find(specimen, normal).map_err(|error| error.what().to_owned())?;
+    let line =
+        bondline::find_bond_line(specimen, normal).map_err(|error| error.what().to_owned())?;
     let middle = wood.origin_m[normal.index()] + line.middle() * wood.voxel_m;
     let plane = fit::plane(&State::of_specimen(specimen, normal), middle)?;
     if let Some(doubt) = &plane.doubt {
@@ -37,7 +38,7 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
             .filter(|&j| j != i)
             .map(|j| turn[i][j].abs() * old[j] as f64)
             .sum();
-        // A hair for the rounding of a plane that is level.
+        // Allow for rounding if the plane is level already.
         (old[i] as f64 - cut + 1e-6).max(0.0) as usize
     });
     if new.contains(&0) {
@@ -58,7 +59,7 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
             bits.get(x, y, z)
         })
     };
-    Ok(Level {
+    Ok(LevelledSpecimen {
         tilt,
         wood: turned(wood.bits),
         adhesive: turned(specimen.adhesive().bits),

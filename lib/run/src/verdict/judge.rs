@@ -1,4 +1,4 @@
-//! The judgement of a run's last state.
+//! The verdict on a run's last state.
 
 use physics::{LiquidState, Scene, WaterState, norm};
 
@@ -6,20 +6,21 @@ use super::{Verdict, faster_than_sound};
 use crate::invariants::Invariants;
 use crate::resolve::Setup;
 
-/// Depth in wood, in cells, that is no more than the resolution of walls.
+/// Resolution of walls, cells: points may lie this deep in wood.
 const WALL_RESOLUTION: f64 = 0.5;
-/// Depth in wood, in cells, that is rounding at a face.
+/// Rounding at a face, cells.
 const ROUNDING: f64 = 1e-3;
-/// Part of the points that may lie in wood within the resolution of walls.
+/// Largest fraction of points in wood, within the resolution of walls.
 const MOST_IN_WOOD: f64 = 0.01;
-/// Volume change that the pressures of the points may leave unexplained.
+/// Largest relative volume change that the pressures of the points do not explain.
 const MOST_UNEXPLAINED: f64 = 1e-3;
-/// Part of the liquid's volume that may lie where there is no room for it.
+/// Largest fraction of the liquid's volume in excess in overfull blocks.
 const MOST_CROWDED: f64 = 0.01;
-/// Part of the water that the account of it may miss.
+/// Largest fraction of the water that the water balance misses.
 const MOST_WATER_MISSING: f64 = 1e-9;
 
-/// Judges the last state of a run in which `lost` points left the domain, by their number where the scheme `follows` them.
+/// Judges the last state of a run in which `lost` points left the domain. The number of points is checked only if the scheme
+/// `follows` them.
 pub(crate) fn judge(
     setup: &Setup,
     liquid: &LiquidState,
@@ -37,7 +38,7 @@ pub(crate) fn judge(
     let (left, begun) = (liquid.position.len() as u64, setup.liquid.points);
     if follows && left + lost != begun {
         reasons.push(format!(
-            "of {begun} material points {left} are left and {lost} went out of the domain"
+            "of {begun} material points {left} remain and {lost} left the domain"
         ));
     }
     if left == 0 {
@@ -46,7 +47,7 @@ pub(crate) fn judge(
     let cell = setup.scene.grid.cell_m;
     if found.deepest_m > (WALL_RESOLUTION + ROUNDING) * cell {
         reasons.push(format!(
-            "{} of {left} material points lie in rigid bodies, the deepest {:.2} cells; half a cell is what walls are resolved to, so bodies have moved over liquid that could not get away",
+            "{} of {left} material points lie in rigid bodies, the deepest {:.2} cells; walls are resolved to half a cell, so bodies have moved over liquid that could not escape",
             found.points_in_wood,
             found.deepest_m / cell
         ));
@@ -89,7 +90,7 @@ pub(crate) fn judge(
     Verdict::because(reasons)
 }
 
-/// First kind of number of the state that is not finite somewhere.
+/// The first quantity with a value that is not finite.
 fn not_finite(liquid: &LiquidState) -> Option<&'static str> {
     let bad = |list: &[f32]| list.iter().any(|x| !x.is_finite());
     let bad_vector = |list: &[[f32; 3]]| bad(list.as_flattened());
@@ -105,7 +106,7 @@ fn not_finite(liquid: &LiquidState) -> Option<&'static str> {
     .map(|(name, _)| *name)
 }
 
-/// Volume that the points would have without their pressures over what it should be, `initial` (m3), minus one.
+/// Volume of the points at zero pressure over its nominal value `initial` (m3), minus one.
 fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
     let at_rest = |(&volume, &pressure): (&f32, &f32)| {
         f64::from(volume) / (1.0 + scene.liquid.tait.volume_change(f64::from(pressure)))
@@ -168,7 +169,7 @@ mod tests {
                 "+1.00 % off",
             ),
             (|l| l.position = vec![l.position[0]; 32], "no room for it"),
-            (|l| l.position.truncate(31), "31 are left and 0 went out"),
+            (|l| l.position.truncate(31), "31 remain and 0 left"),
         ];
         for (change, wanted) in cases {
             let found = said(&change, 0);

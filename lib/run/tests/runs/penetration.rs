@@ -1,5 +1,5 @@
-//! Penetration as a run tells it while it goes on, against straight grooves filled by a volume known
-//! beforehand, and against the same measured of its states afterwards.
+//! Penetration in the history and the summary of a run, against straight grooves filled by a known volume, and against
+//! the same measures of its state files.
 
 use std::fs;
 
@@ -31,8 +31,8 @@ penetration = true
 snapshots = 3
 "#;
 
-/// A bond whose grooves are half of its area, as deep as the wood but for three voxels, with a sealed lumen in
-/// the land of the lower adherend.
+/// A bond with grooves over half of its area, which leave three voxels of wood behind them, and with a sealed lumen in the
+/// land of the lower adherend.
 fn bench() -> Bench {
     bench_of(TABLES)
 }
@@ -61,15 +61,15 @@ fn last(bench: &Bench, name: &str) -> String {
     bench.column(name).pop().unwrap()
 }
 
-/// By then the clamp has moved 20 of 24 um. Of the adhesive, 12 voxels high before, 2 are left between the
-/// lands, and half of the rest fills 10 voxels of each groove, 11 from the middle on.
+/// At the end the clamp has moved 20 of 24 um. Of 12 voxels of adhesive, 2 are left between the lands; each side's half of
+/// the rest fills 10 voxels of its grooves, to a depth of 11 from the middle.
 #[test]
 fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
     let bench = bench();
     let summary = bench.ran("run", PLAIN, END);
     let told = |name: &str| last(&bench, name);
     let number = |name: &str| told(name).parse::<f64>().unwrap();
-    // Of 72 square voxels a side: 12 wide up to a depth of 1, 6 wide from there to 11.
+    // 72 square voxels a side: 12 wide to a depth of 1, then 6 wide to 11.
     let wp = ((12.0 + 6.0 * (11_f64.powi(3) - 1.0)) / 3.0 / 72.0).sqrt() * VOXEL;
     let face = VOXEL.powi(2);
     let known = [
@@ -77,7 +77,7 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
         ("ep", "um", 6.0 * VOXEL, 0.5 * VOXEL),
         ("p95_depth", "um", (11.0 - 0.05 * 72.0 / 6.0) * VOXEL, VOXEL),
         ("half_filled_depth", "um", 11.0 * VOXEL, 1.01 * VOXEL),
-        // Walls of 10 and the land, all 2 voxels along z; two voxels more or less of both walls.
+        // Walls 10 voxels high and the land, all 2 voxels along z; tolerance: two voxels of both walls.
         ("wetted_area", "um2", 52.0 * face, 8.0 * face),
     ];
     for (name, unit, wanted, tolerance) in known {
@@ -92,8 +92,8 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
     println!("bond line filled: {filled:.4}, known 1");
     assert!((filled - 1.0).abs() < 0.1, "{filled}");
     assert_eq!(told("bond_line"), "filled");
-    // The filled share of the open lumens is 1 to the front and 0 behind it: markers lie within a voxel of
-    // where they should, so that what is filled to any depth is known to a layer.
+    // The filled fraction of the open lumens is 1 up to the front and 0 beyond. Markers are off by up to a voxel, so the fill
+    // up to any depth is exact to a layer.
     let answers = summary.penetration.unwrap();
     assert!(!answers.outer_face_reached);
     let by_depth = &answers.filled_by_depth;
@@ -111,7 +111,7 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
     assert_eq!(of_history, told("wp_total_um"));
 }
 
-/// One meaning of gap: history, summary, states and, where flat surfaces meet when the bond is closed, their distance.
+/// The gap means the same in history, summary and states; with flat surfaces it is also their distance.
 #[test]
 fn the_gap_is_the_way_left_wherever_it_is_told() {
     let bench = bench();
@@ -128,7 +128,7 @@ fn the_gap_is_the_way_left_wherever_it_is_told() {
         println!("gap {:.6} um, known {:.6}", 1e6 * gap, 1e6 * wanted);
         assert!((gap - wanted).abs() < 1e-12, "{gap}");
     }
-    // What the run told is what its state shows.
+    // The history agrees with the state file.
     let sides = penetration(&state, &middle);
     for (side, name) in sides.iter().zip(["bottom", "top", "total"]) {
         let um = |metres: f64| format!("{:.6}", 1e6 * metres);
@@ -139,7 +139,7 @@ fn the_gap_is_the_way_left_wherever_it_is_told() {
     assert_eq!(wetted, told("wetted_area_top_um2"));
 }
 
-/// Water that the walls took once counted as liquid that had left.
+/// Water taken by the walls does not count as liquid that left.
 #[test]
 fn only_what_left_through_open_sides_squeezes_a_bond_line_out() {
     let water = "[adhesive.water]\nsolids = 0.45\nuptake = \"0.2 m/s\"\ndiffusivity = \"1e-5 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]\n";
@@ -167,7 +167,7 @@ fn a_run_that_tells_penetration_stopped_on_its_way_ends_the_same() {
     ends_the_same(&bench(), 4);
 }
 
-/// A press that lets go with air behind the adhesive was told by its last state alone.
+/// After a release, air may push the adhesive back: the summary also gives the WP before it.
 #[test]
 fn what_a_press_came_to_is_told_of_before_its_release() {
     let stages = "[[clamp.stage]]\nkind = \"approach\"\nspeed = \"1 m/s\"\npressure = \"1 MPa\"\ntravel = \"20 um\"\n[[clamp.stage]]\nkind = \"release\"\ntime = \"0.1 ms\"\n[air]\npressure = \"101.325 kPa\"\n";
@@ -185,7 +185,6 @@ fn what_a_press_came_to_is_told_of_before_its_release() {
     assert!(said.contains(&wp), "{said}");
 }
 
-/// What a page can show of it.
 #[test]
 fn a_run_that_fails_leaves_its_sentence() {
     let bench = Bench::new("scheme = \"explicit\"\ncfl = 1.5", "1.4 us", "0.01 us");

@@ -1,18 +1,17 @@
-//! Checks while a run goes on: of reports of steps, and of diagnostics of states.
+//! Checks during a run: of each step's report, and of the diagnostics of states before they are written.
 
 use physics::{Diagnostics, Failure, Scene, StepReport};
 
 use super::faster_than_sound;
-use crate::resolve::{OVERLAP, Setup};
+use crate::resolve::{OVERLAP_CELLS, Setup};
 
-/// Mean pressure over the bulk modulus to which Eq. 1 holds: 200 MPa at the paper's 1 GPa, where
-/// the measurements end that such laws with a universal C are fitted to. The mean volume change
-/// there is 10.5 %.
+/// Largest mean pressure over bulk modulus for which Eq. 1 holds: 200 MPa at the paper's 1 GPa, the end of the measurements
+/// to which such laws with a universal C are fitted. The volume change there is 10.5 %.
 pub(crate) const MOST_PRESSURE: f64 = 0.2;
 
-/// Looks at what a step reported.
-/// Errors: a number that is none, or a clamp that has gone into another body.
-pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
+/// Checks the report of a step.
+/// Errors: a number that is not finite, or a clamp that overlaps another body.
+pub(crate) fn check_step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
     let numbers = [
         ("time step", report.dt_s),
         ("closing speed", report.closing_speed),
@@ -23,7 +22,7 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
     finite(&numbers)?;
     match &setup.clamp_clearance {
         Some((clearance_m, other))
-            if report.travel_m > clearance_m + OVERLAP * setup.scene.grid.cell_m =>
+            if report.travel_m > clearance_m + OVERLAP_CELLS * setup.scene.grid.cell_m =>
         {
             Err(Failure(format!(
                 "the clamp's body has met {other} after {:.4} um and would overlap it; an earlier stop, stop = \"closed\" or a lower max_pressure is needed",
@@ -34,9 +33,13 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
     }
 }
 
-/// Looks at the diagnostics of a state that is to be written: row, snapshot or checkpoint.
-/// Errors: a number that is none, liquid faster than its sound, or more pressure than Eq. 1 holds for.
-pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Result<(), Failure> {
+/// Checks the diagnostics of a state before a row, snapshot or checkpoint.
+/// Errors: a number that is not finite, liquid faster than sound, or a pressure beyond the range of Eq. 1.
+pub(crate) fn check_state(
+    setup: &Setup,
+    diagnostics: &Diagnostics,
+    lost: u64,
+) -> Result<(), Failure> {
     finite(&[
         ("kinetic energy", diagnostics.kinetic_energy),
         ("viscous power", diagnostics.viscous_power),
@@ -48,7 +51,7 @@ pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Resu
             "{said}; another integrator.cfl, a lower speed or a higher viscosity may help"
         )));
     }
-    // Points differ in volume by the rounding of their lattices alone.
+    // All points have the same volume up to rounding.
     let part = 1.0 - lost as f64 / setup.liquid.points as f64;
     let given_off = diagnostics.water.map_or(0.0, |water| water.given_off_m3);
     let change = diagnostics.volume / (part * setup.liquid.volume_m3 - given_off) - 1.0;
@@ -69,7 +72,7 @@ pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Resu
             }
         )));
     }
-    // Cavities that open at a tension given are meant.
+    // With a cavitation pressure, cavities are intended.
     if change > -most && scene.liquid.cavitation_pressure.is_none() {
         return Err(Failure(format!(
             "the liquid is {:.1} % larger than at rest on average, a tension {range}: it is torn apart; a cavitation_pressure limits the tension it carries",
@@ -113,9 +116,9 @@ mod tests {
             ..Diagnostics::default()
         };
         let said = |factor, energy, lost| {
-            state(&setup, &of(factor, energy), lost).map_err(|failure| failure.0)
+            check_state(&setup, &of(factor, energy), lost).map_err(|failure| failure.0)
         };
-        // Of the last one half of the points went out.
+        // In the last case half of the points left.
         for (factor, lost) in [(1.0, 0), (0.9, 0), (0.5, 16)] {
             assert_eq!(said(factor, 1.0, lost), Ok(()));
         }
@@ -131,7 +134,7 @@ mod tests {
             max_speed: 1001.0,
             ..of(1.0, 1.0)
         };
-        let fast = state(&setup, &fast, 0).unwrap_err().0;
+        let fast = check_state(&setup, &fast, 0).unwrap_err().0;
         assert!(fast.contains("above its speed of sound"), "{fast}");
     }
 
@@ -143,18 +146,18 @@ mod tests {
             travel_m: 1e-6,
             ..StepReport::default()
         };
-        assert_eq!(step(&setup, &report), Ok(()));
+        assert_eq!(check_step(&setup, &report), Ok(()));
         let beyond = StepReport {
             travel_m: 1.1e-6,
             ..report
         };
-        let said = step(&setup, &beyond).unwrap_err().0;
+        let said = check_step(&setup, &beyond).unwrap_err().0;
         assert!(said.contains("has met 'bottom' after 1.0000 um"), "{said}");
         let infinite = StepReport {
             pressure_top: f64::NEG_INFINITY,
             ..report
         };
-        let said = step(&setup, &infinite).unwrap_err().0;
+        let said = check_step(&setup, &infinite).unwrap_err().0;
         assert!(said.contains("on the upper body is infinite"), "{said}");
     }
 }

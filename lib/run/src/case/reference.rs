@@ -1,27 +1,27 @@
-//! The page of all tables and keys, docs/case-file.md: what `mpm-run --reference` prints, and the home of names, order
-//! and defaults in `resolved.toml`. A key of the schema without its row fails a test.
+//! docs/case-file.md, the reference of all tables and keys. `mpm-run --reference` prints it, and `resolved.toml` takes names,
+//! order and defaults from it. A test checks that every key of the schema has a row.
 
-/// The page, Markdown.
+/// The reference of the case file, Markdown.
 pub const REFERENCE: &str = include_str!("../../../../docs/case-file.md");
 
 /// A table of a case file.
-pub(crate) struct Table {
-    /// `[clamp]` or, of one that may be given several times, `[[clamp.stage]]`.
+pub(crate) struct ReferenceTable {
+    /// Heading, such as `[clamp]`, or `[[clamp.stage]]` for a list of tables.
     pub(crate) heading: &'static str,
-    /// `clamp.stage`.
+    /// Dotted path, such as `clamp.stage`.
     pub(crate) path: &'static str,
     pub(crate) keys: Vec<Key>,
 }
 
-/// A key of a [`Table`]: its name (`pid.kp` is `kp` in the inline table `pid`), what may be given, and what holds where
-/// it is not given, in words or as `` `value` ``.
+/// A key of a [`ReferenceTable`]: its name (`pid.kp` is `kp` in the inline table `pid`), its accepted values, and its default, in words
+/// or as `` `value` ``.
 pub(crate) struct Key([&'static str; 3]);
 
-/// The tables in the order in which they are told and written.
-pub(crate) fn tables() -> impl Iterator<Item = Table> {
+/// The tables in the order of the page.
+pub(crate) fn tables() -> impl Iterator<Item = ReferenceTable> {
     REFERENCE.split("\n## `").skip(1).filter_map(|section| {
         let (heading, body) = section.split_once('`')?;
-        Some(Table {
+        Some(ReferenceTable {
             heading,
             path: heading.trim_matches(['[', ']']),
             keys: body.lines().filter_map(Key::of_row).collect(),
@@ -29,7 +29,7 @@ pub(crate) fn tables() -> impl Iterator<Item = Table> {
     })
 }
 
-impl Table {
+impl ReferenceTable {
     pub(crate) fn repeated(&self) -> bool {
         self.heading.starts_with("[[")
     }
@@ -50,7 +50,7 @@ impl Key {
         self.0[2]
     }
 
-    /// The default where it is a value, as TOML.
+    /// The default as TOML, if it is a value.
     pub(crate) fn value(&self) -> Option<&'static str> {
         let value = self.default().strip_prefix('`')?.strip_suffix('`')?;
         (!value.contains('`')).then_some(value)
@@ -84,7 +84,7 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
 "#;
 
     /// `CASE` with another value at `path`, parsed.
-    fn with(path: &str, value: &str) -> Result<Case, RunFailure> {
+    fn case_with(path: &str, value: &str) -> Result<Case, RunFailure> {
         let mut root: toml::Table = CASE.parse().unwrap();
         let value = toml::from_str::<toml::Table>(&format!("v = {value}")).unwrap()["v"].clone();
         let (tables, last) = path.rsplit_once('.').unwrap_or(("", path));
@@ -106,10 +106,10 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
     }
 
     fn refusal(path: &str, value: &str) -> String {
-        with(path, value).map_or_else(|refused| refused.to_string(), |_| String::new())
+        case_with(path, value).map_or_else(|refused| refused.to_string(), |_| String::new())
     }
 
-    /// Every path of the schema that is no table, below `path`: a table names its keys to one that it does not have.
+    /// All keys of the schema below `path`. The error on an unknown key lists the keys of its table.
     fn schema(path: &str) -> Vec<String> {
         let said = refusal(format!("{path}.zzz").trim_start_matches('.'), "1");
         let Some((_, known)) = said.split_once("unknown field `zzz`, expected ") else {
@@ -147,7 +147,7 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
         }
     }
 
-    /// What the schema says to a text that is no value, and to a list of them, names what the row must tell.
+    /// The schema's error on a wrong value names the accepted form, which the row must state.
     #[test]
     fn values_are_of_the_form_told() {
         let mut checked = 0;
@@ -191,13 +191,13 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
         assert!(checked > 50, "{checked}");
     }
 
-    /// A default that is told as a value is what a case without the key has.
+    /// The default value in a row is the value of a case without the key.
     #[test]
     fn defaults_are_those_of_the_schema() {
         let plain = format!("{:?}", Case::parse(CASE, Path::new("c")).unwrap());
         let mut told = 0;
         for (path, key) in rows() {
-            // What the resolution, not the schema, makes of the absence: the runs of a test of `resolved.toml` check it.
+            // Defaults that the resolution sets, not the schema; the tests of `resolved.toml` check them.
             let resolved = [
                 "velocity",
                 "name",
@@ -212,7 +212,7 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
             else {
                 continue;
             };
-            let named = with(&path, value).unwrap_or_else(|e| panic!("{path} = {value}: {e}"));
+            let named = case_with(&path, value).unwrap_or_else(|e| panic!("{path} = {value}: {e}"));
             assert_eq!(format!("{named:?}"), plain, "{path}");
             told += 1;
         }
@@ -230,7 +230,7 @@ box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
             else {
                 continue;
             };
-            // Micro sign and Greek mu, which look alike, are both accepted and told once.
+            // Micro sign and Greek mu look alike: both are accepted, the page lists one.
             let names = units.iter().map(|(name, _)| *name);
             let names = names.filter(|name| !name.starts_with('\u{3bc}'));
             let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();

@@ -1,4 +1,4 @@
-//! The voids of wood that are open to a layer of it.
+//! Voids of wood that are connected to a given layer.
 
 use std::collections::VecDeque;
 
@@ -7,13 +7,13 @@ use units::Axis;
 
 const WORD: usize = u64::BITS as usize;
 
-/// The voids that paths through faces between voxels connect to those of `layer` across `normal`.
+/// The voids that are connected, through faces of voxels, to those of `layer` across `normal`.
 ///
-/// Liquid gets from one adherend to the other through the bond plane only, so each can be looked at
-/// alone, from its layer there: the last of the lower, the first of the upper.
+/// Liquid passes between the adherends through the bond plane only, so each adherend is treated alone, from its layer at
+/// the bond: the last one of the lower, the first one of the upper.
 ///
 /// # Panics
-/// When there is no such layer.
+/// If there is no such layer.
 pub fn open_voids(wood: BitsRef, normal: Axis, layer: usize) -> BitGrid {
     let dims = wood.dims();
     let [nx, ny, nz] = dims;
@@ -22,7 +22,7 @@ pub fn open_voids(wood: BitsRef, normal: Axis, layer: usize) -> BitGrid {
         wood,
         found: BitGrid::new(dims),
         waiting: VecDeque::new(),
-        waits: BitGrid::new([ny, nz, 1]),
+        is_waiting: BitGrid::new([ny, nz, 1]),
     };
     let every = vec![u64::MAX; nx.div_ceil(WORD)];
     let mut one = vec![0; nx.div_ceil(WORD)];
@@ -30,37 +30,37 @@ pub fn open_voids(wood: BitsRef, normal: Axis, layer: usize) -> BitGrid {
     match normal {
         Axis::X => {
             one[layer / WORD] = 1 << (layer % WORD);
-            whole(nz).for_each(|z| whole(ny).for_each(|y| flood.enter([y, z], &one)));
+            whole(nz).for_each(|z| whole(ny).for_each(|y| flood.add([y, z], &one)));
         }
-        Axis::Y => whole(nz).for_each(|z| flood.enter([layer, z], &every)),
-        Axis::Z => whole(ny).for_each(|y| flood.enter([y, layer], &every)),
+        Axis::Y => whole(nz).for_each(|z| flood.add([layer, z], &every)),
+        Axis::Z => whole(ny).for_each(|y| flood.add([y, layer], &every)),
     }
     flood.spread();
     flood.found
 }
 
-/// Voids found so far, row by row along x: a front of single voxels took 24 bytes of each.
+/// A flood fill by rows along x, which takes less memory than a front of single voxels.
 struct Flood<'a> {
     wood: BitsRef<'a>,
     found: BitGrid,
-    /// Rows (y, z) in which voids were found whose neighbours are to be looked at.
+    /// Rows (y, z) with new voids, whose neighbours are still to be visited.
     waiting: VecDeque<[usize; 2]>,
-    /// Which those are.
-    waits: BitGrid,
+    /// Whether a row is in `waiting`.
+    is_waiting: BitGrid,
 }
 
 impl Flood<'_> {
-    /// Adds to row (y, z) those of its voids that are in `from`.
-    fn enter(&mut self, [y, z]: [usize; 2], from: &[u64]) {
+    /// Adds the voids of row (y, z) that are set in `from`.
+    fn add(&mut self, [y, z]: [usize; 2], from: &[u64]) {
         let found = self.found.row_mut(y, z);
         let mut more = 0;
         for (i, found) in found.iter_mut().enumerate() {
-            let new = from[i] & void(self.wood, [y, z], i) & !*found;
+            let new = from[i] & void_word(self.wood, [y, z], i) & !*found;
             *found |= new;
             more |= new;
         }
-        if more != 0 && !self.waits.get(y, z, 0) {
-            self.waits.set(y, z, 0, true);
+        if more != 0 && !self.is_waiting.get(y, z, 0) {
+            self.is_waiting.set(y, z, 0, true);
             self.waiting.push_back([y, z]);
         }
     }
@@ -68,8 +68,8 @@ impl Flood<'_> {
     fn spread(&mut self) {
         let [_, ny, nz] = self.wood.dims();
         while let Some([y, z]) = self.waiting.pop_front() {
-            self.waits.set(y, z, 0, false);
-            self.fill([y, z]);
+            self.is_waiting.set(y, z, 0, false);
+            self.fill_row([y, z]);
             let row = self.found.row(y, z).to_vec();
             let beside = [
                 (y > 0, [y.wrapping_sub(1), z]),
@@ -78,33 +78,33 @@ impl Flood<'_> {
                 (z + 1 < nz, [y, z + 1]),
             ];
             for (_, at) in beside.into_iter().filter(|(inside, _)| *inside) {
-                self.enter(at, &row);
+                self.add(at, &row);
             }
         }
     }
 
-    /// Fills the voids of row (y, z) that are connected within it to one found.
-    fn fill(&mut self, at: [usize; 2]) {
+    /// Fills the voids of row (y, z) that are connected, within the row, to a void already found.
+    fn fill_row(&mut self, at: [usize; 2]) {
         let wood = self.wood;
         let row = self.found.row_mut(at[0], at[1]);
         let mut carry = 0;
         for (i, found) in row.iter_mut().enumerate() {
-            let void = void(wood, at, i);
-            *found = upwards(*found | carry & void, void);
+            let void = void_word(wood, at, i);
+            *found = extend_up(*found | carry & void, void);
             carry = *found >> (WORD - 1);
         }
         carry = 0;
         for (i, found) in row.iter_mut().enumerate().rev() {
-            let void = void(wood, at, i);
+            let void = void_word(wood, at, i);
             let turned = (*found | carry & void).reverse_bits();
-            *found = upwards(turned, void.reverse_bits()).reverse_bits();
+            *found = extend_up(turned, void.reverse_bits()).reverse_bits();
             carry = *found << (WORD - 1);
         }
     }
 }
 
-/// The voids of word `i` of row (y, z); there are none behind its end.
-fn void(wood: BitsRef, [y, z]: [usize; 2], i: usize) -> u64 {
+/// The voids in word `i` of row (y, z); bits beyond the end of the row are zero.
+fn void_word(wood: BitsRef, [y, z]: [usize; 2], i: usize) -> u64 {
     let inside = match wood.dims()[0] - i * WORD {
         left if left < WORD => (1 << left) - 1,
         _ => u64::MAX,
@@ -112,8 +112,8 @@ fn void(wood: BitsRef, [y, z]: [usize; 2], i: usize) -> u64 {
     !wood.row(y, z)[i] & inside
 }
 
-/// `from`, and the bits of `void` above each of it without a gap, in steps of 1, 2, 4 ... bits.
-fn upwards(from: u64, void: u64) -> u64 {
+/// Extends each bit of `from` upwards over adjacent bits of `void`, in steps of 1, 2, 4 ... bits.
+fn extend_up(from: u64, void: u64) -> u64 {
     let (mut filled, mut open) = (from, void);
     for step in (0..WORD.ilog2()).map(|power| 1 << power) {
         filled |= open & filled << step;
@@ -126,7 +126,7 @@ fn upwards(from: u64, void: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// Voxel by voxel, as the rows do it a word at a time.
+    /// The same fill, voxel by voxel.
     fn by_voxels(wood: &BitGrid, axis: usize, layer: usize) -> BitGrid {
         let dims = wood.dims();
         let mut open = BitGrid::new(dims);
@@ -147,7 +147,7 @@ mod tests {
         open
     }
 
-    /// Rows that end within, at and behind the end of a word, and voids that wind through several.
+    /// Rows that end within, at and just beyond the end of a word, and voids that wind through several rows.
     #[test]
     fn whole_rows_find_what_single_voxels_do() {
         for nx in [1, 63, 64, 65, 130] {

@@ -1,21 +1,21 @@
-//! Depth of points in rigid bodies.
+//! Rigid bodies at their current place, and the depth of points in them.
 
 use physics::Scene;
 
-/// The bodies of a scene where they are now.
+/// The bodies of a scene at their current place.
 pub(crate) struct MovedBodies<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) displacements: &'a [[f64; 3]],
 }
 
 impl MovedBodies<'_> {
-    /// Low and high corner of a solid voxel that holds `point`.
+    /// Low and high corner of the solid voxel that contains `point`.
     pub(crate) fn voxel(&self, point: [f64; 3]) -> Option<[[f64; 3]; 2]> {
         (self.scene.bodies.iter().zip(self.displacements)).find_map(|(body, shift)| {
             let own: [f64; 3] = std::array::from_fn(|a| point[a] - shift[a]);
             body.blocks.iter().find_map(|block| {
                 let (origin, voxel) = (block.origin(), block.voxel());
-                // Where the point is in the block itself, of an image of which it may be.
+                // The point may lie in a periodic image of the block: shift it into the block itself.
                 let at: [f64; 3] = std::array::from_fn(|a| match self.scene.period(a) {
                     Some(period) => origin[a] + (own[a] - origin[a]).rem_euclid(period),
                     None => own[a],
@@ -30,11 +30,11 @@ impl MovedBodies<'_> {
         })
     }
 
-    /// Distance from `point` in a body to the nearest place along an axis that no body fills and
-    /// that is inside the domain or beyond a periodic side, looking no further than `far`.
+    /// Distance along an axis from `point` in a body to the nearest place outside all bodies and inside the domain; periodic
+    /// sides may be crossed. At most `far`.
     pub(crate) fn depth(&self, point: [f64; 3], far: f64) -> f64 {
         let (min, max) = (self.scene.grid.min_m, self.scene.grid.max_m());
-        // Into the next voxel.
+        // Step that leads into the next voxel.
         let hair = 1e-6 * self.scene.grid.cell_m;
         let mut nearest = far;
         for a in 0..self.scene.dimensions.axes() {
@@ -79,13 +79,12 @@ mod tests {
     fn depth_is_measured_to_the_nearest_open_face() {
         let scene = scene(vec![block()]);
         assert!((depth(&scene, [5.0 - 0.25, 2.5, 1.5]) - 0.25).abs() < 1e-12);
-        // Out of the domain leads no way.
+        // Places outside the domain do not count.
         assert!((depth(&scene, [2.5, 2.5, 0.4]) - 0.6).abs() < 1e-12);
         assert!((depth(&scene, [0.4, 2.5, 0.4]) - 2.5).abs() < 1e-12);
     }
 
-    /// Before, the next body was taken for open space, and liquid under a clamp that had gone
-    /// through the floor was as deep as the nearest face of either.
+    /// Faces at which another body begins are not open: liquid under a clamp that has gone through the floor is deep in wood.
     #[test]
     fn another_body_beyond_a_face_is_no_way_out() {
         let floor = VoxelBlock::solid_box([0.0; 3], [8.0, 3.0, 3.0]);
@@ -96,7 +95,7 @@ mod tests {
         assert_eq!((found.points_in_wood, found.points_deep_in_wood), (1, 1));
     }
 
-    /// Liquid in the image of a body that had gone over a periodic side was not seen to be in wood.
+    /// The periodic images of a displaced body are wood too.
     #[test]
     fn a_body_is_where_its_images_are() {
         let post = VoxelBlock::solid_box([5.0, 0.0, 0.0], [7.0, 6.0, 3.0]);
