@@ -35,7 +35,7 @@ dimensions! {
     /// Speed, SI metre per second.
     Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("nm/s", 1e-9), ("mm/min", 1e-3 / 60.0)], [1e-15, 1e6];
     /// Pressure or modulus, SI pascal.
-    Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], [1e-9, 1e12];
+    Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], [1e-9, 1e16];
     /// Dynamic viscosity, SI pascal second.
     Viscosity, "a viscosity", &[("Pa s", 1.0), ("Pa.s", 1.0), ("mPa s", 1e-3), ("mPa.s", 1e-3), ("cP", 1e-3), ("P", 0.1)], [1e-6, 1e12];
     /// Mass density, SI kilogram per cubic metre.

@@ -55,7 +55,7 @@ impl Implicit {
             |pore| fractions[pore] >= FULL,
             &self.void(),
             &self.state.air.mass,
-            // A clamped body does not seal the sides normal to y.
+            // Under a clamp both sides normal to y are outside (docs/methods.md section 3.13).
             self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
         );
         for pocket in air.pockets.iter_mut().chain(&mut air.dry) {

@@ -224,7 +224,7 @@ impl Channels<'_> {
         }
     }
 
-    /// Channel width along an axis at a voxel, cells.
+    /// Channel width along an axis at a voxel, cells; at least a quarter, so that a gap that closes has finite friction.
     fn width(&self, address: Option<VoxelAddress>, axis: usize) -> f64 {
         let k = self.mesh.k as f64;
         let gap = self.mesh.rows().height * k;
