@@ -1,7 +1,8 @@
 //! Measures of a mesh at its current gap height: row heights, pore volumes, face areas.
 
 use super::lattice::Lattice;
-use super::mesh::{Mesh, Pore};
+use super::mesh::Mesh;
+use super::pore::Pore;
 use super::rows::Rows;
 
 /// Row heights, cells.

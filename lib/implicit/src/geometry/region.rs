@@ -1,6 +1,7 @@
 //! Sets of cells of a box, such as the active cells around the liquid.
 
-use super::mesh::{Face, Mesh};
+use super::mesh::Mesh;
+use super::pore::Face;
 
 /// A set of cells of a box, numbered x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]

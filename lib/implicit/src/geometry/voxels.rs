@@ -4,7 +4,8 @@ use physics::Boundary;
 
 use super::chords::VoxelAddress;
 use super::lattice::{Lattice, MIRROR, OPEN};
-use super::mesh::{Face, Mesh, Pore, others};
+use super::mesh::{Mesh, others};
+use super::pore::{Face, Pore};
 use super::rows::RowKind;
 
 /// Factors on friction and shear half a voxel from a re-entrant edge, relative to linear profiles (docs/methods.md section
