@@ -96,7 +96,7 @@ fn what_is_no_finer_run_of_the_same_bond_is_refused() {
     let refused = "\
 C --finer C | at least 2 times smaller
 F --finer C | at least 2 times smaller
-C --finer implicit-finer/snapshots/0000.mpts | the same moment
+C --finer implicit-finer/snapshots/0000.mpts | the same state
 C --finer other/final.mpts | different bonds
 C --finer thinner/final.mpts | differ in [adhesive]
 C --finer slipping/final.mpts | differ in [contact]

@@ -67,8 +67,12 @@ fn made_for<T>(
         let prefix = prefix(target);
         let mut builder = Builder::new();
         let made = make(builder.prefix(&prefix).suffix(ENDING), folder_of(target));
-        // Without the name, which nobody asked for.
-        let (handle, made) = made.map_err(|error| io::Error::from(error.kind()))?;
+        // tempfile adds the path, which is no name that the user gave.
+        let (handle, made) = made.map_err(|error| {
+            let said = error.to_string();
+            let reason = said.split(" at path ").next().unwrap_or_default();
+            io::Error::new(error.kind(), reason)
+        })?;
         // Where the file system knows no locks nothing is swept either.
         let _ = handle.lock();
         // A sweep may have taken it for forgotten in between.

@@ -8,9 +8,9 @@ use crate::table2::{Row, Table2, number};
 
 /// The first of the quantities that Table 2 does not have.
 const BESIDE_TABLE2: usize = 3;
-/// What a pressure at the end is of.
-pub const AT_THE_END: &str = "in the middle of the last step, which is longer in larger cells, so not after quite the same travel; \
-    not compared with a run that left another gap";
+/// Note on pressures at the end of a run.
+pub const AT_THE_END: &str = "in the middle of the last step; larger cells take longer steps, so the travel differs a little between \
+    cell sizes; runs that left different gaps are not compared";
 
 impl Table2 {
     /// Whether a finer run says something of the error of a run.
@@ -24,7 +24,7 @@ impl Table2 {
     }
 
     /// The run that a quantity of `row` is held against where it has no error of its own: `implicit-NAME`
-    /// where there is one with an error, else `implicit`. A pressure is held against one after the same way of the clamp.
+    /// where there is one with an error, else `implicit`. A pressure is compared only with that of a run that left the same gap.
     fn reference(&self, row: &Row, quantity: usize) -> Option<(&Row, Known)> {
         let named = |name: &str| {
             let mut others = self.runs().filter(|run| run.adhesive == row.adhesive);

@@ -280,6 +280,19 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn a_folder_that_was_replaced_is_not_written_into() {
+        let (place, folder) = test_folder();
+        folder.write_text(SUMMARY, "1").unwrap();
+        fs::remove_file(place.path().join(RUN_MARK)).unwrap();
+        fs::write(place.path().join(RUN_MARK), "").unwrap();
+        let said = folder.write_text(SUMMARY, "2").unwrap_err().to_string();
+        let why = "bondline-run.toml: it was removed or replaced";
+        assert!(said.contains(why), "{said}");
+        assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
+        assert!(!is_taken(&place.path().join(TEMPORARY)));
+    }
+
+    #[test]
     fn a_failed_write_leaves_the_old_file_and_no_litter() {
         let (place, folder) = test_folder();
         folder.write_text(SUMMARY, "1").unwrap();

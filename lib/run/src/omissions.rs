@@ -1,4 +1,4 @@
-//! What a run leaves out, and why: stages that its scheme does without, and physics that is not modelled.
+//! Omissions of a run and their reasons: stages that its scheme does without, and physics that is not modelled.
 
 use physics::{Boundary, Dimensions, Regime, Stages};
 
@@ -19,7 +19,7 @@ pub struct Remark {
     pub why: String,
 }
 
-/// Everything that a run leaves out; `stages` are those of its scheme.
+/// All omissions of a run; `stages` are those of its scheme.
 pub(crate) fn omissions(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Remark> {
     let regime = Regime::of(&setup.scene, &setup.liquid);
     let absent = |stage: &physics::Stage| {

@@ -54,7 +54,7 @@ pub fn carry_on(
     let times = [input.time_s(), finer.time_s()];
     if (times[0] - times[1]).abs() > 1e-6 * times[0] && !closed_alike(&state, &fine) {
         return Err(Failure::usage(format!(
-            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and the clamp has gone another way: --finer takes the same moment of the same run in smaller cells",
+            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and their clamps have different travels: --finer needs the same state of the same run in smaller cells",
             input.name, times[0], finer.name, times[1]
         )));
     }

@@ -8,8 +8,8 @@ use crate::geometry::{Lattice, others};
 /// Velocity profiles of a flow within pores. A component is linear along its own axis from face to face. Across it is a parabola
 /// whose mean over the face is the velocity of the face and whose slopes at its two sides are the shear rates there.
 pub(crate) struct Profile<'a> {
-    pub(crate) lattice: &'a Lattice,
-    pub(crate) flow: FlowField<'a>,
+    lattice: &'a Lattice,
+    flow: FlowField<'a>,
     /// Slopes of the velocity of each face at its low and its high side along its two tangential axes, the lower first, 1/s.
     slopes: Vec<[[f64; 2]; 2]>,
 }

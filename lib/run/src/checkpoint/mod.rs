@@ -176,5 +176,13 @@ mod tests {
             assert!(told.contains(there) && told.contains(&here), "{told}");
             assert!(told.contains("with the build that wrote it"), "{told}");
         }
+        // A file with the case's identity that says neither its writer nor its format.
+        let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [0.0; 3]);
+        header.set_attribute(IDENTITY, "x");
+        let mut bytes = Vec::new();
+        Draft::new(header).write_to(&mut bytes).unwrap();
+        std::fs::write(place.path().join(CHECKPOINT), bytes).unwrap();
+        let told = said("0.1.0", "explicit 1, run 1").unwrap_err();
+        assert!(told.contains("with the build that wrote it"), "{told}");
     }
 }

@@ -41,7 +41,7 @@ fn another_build(header: &Header, origin: &Origin) -> Option<String> {
         format!("{tool} {version} in the checkpoint format '{format}'")
     };
     let format = header.attribute(FORMAT).unwrap_or_default();
-    let writer = header.provenance.last()?;
+    let writer = header.provenance.last().cloned().unwrap_or_default();
     let same = writer.version == here.version && format == origin.format;
     (!same).then(|| {
         format!(
