@@ -154,8 +154,8 @@ fn pressures_of_pistons_grow_along_straight_lines() {
 /// Errors of the force at one to four filled widths over Courant numbers from 0.8 to 1 are small in the mean and deviate by little.
 #[test]
 fn a_piston_into_a_slit() {
-    for (n, most, deviates) in [(3, 0.1, 0.03), (6, 0.055, 0.01)] {
-        for offset in [0.0, 0.5] {
+    for (n, most, deviates) in [(3, [0.05, 0.13], 0.03), (6, [0.008, 0.03], 0.01)] {
+        for (offset, most) in [0.0, 0.5].into_iter().zip(most) {
             let scene = slit::scene(n, [offset, 0.0]);
             let all = [1.0, 0.95, 0.9, 0.85].map(|cfl| {
                 let method = Method::implicit().setting(format!("integrator.cfl={cfl}"));

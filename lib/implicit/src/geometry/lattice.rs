@@ -186,6 +186,11 @@ impl Lattice {
         self.moving.is_some_and(|moving| moving.body == body)
     }
 
+    /// Whether bodies stand in the gap, as the side walls of a piston do.
+    pub(crate) fn gap_has_walls(&self) -> bool {
+        self.gap.iter().any(|&code| code != OPEN && code != MIRROR)
+    }
+
     /// Velocity of a body along y per unit of closing speed.
     pub(crate) fn body_speed(&self, body: usize) -> f64 {
         match self.moving {

@@ -90,6 +90,15 @@ impl Mesh {
         self.codes[self.k * self.k * self.k * cell + self.bit(voxel)]
     }
 
+    /// Code of the body whose wall bounds a pore on its high (`up`) or low side along y.
+    pub(crate) fn wall_code(&self, pore: usize, up: bool) -> u8 {
+        self.voxels(pore)
+            .filter_map(|voxel| self.next_voxel(self.cell(pore), voxel, 1, up))
+            .map(|(cell, voxel)| self.code(cell, voxel))
+            .find(|&code| code != OPEN)
+            .unwrap_or(OPEN)
+    }
+
     /// Code of a voxel of a cell, looked up in the lattice.
     pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
         match self.lattice_address(lattice, self.cell_indices(cell), voxel) {

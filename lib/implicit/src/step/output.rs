@@ -46,6 +46,14 @@ impl Implicit {
         let (mesh, origin) = (&self.mesh, self.setup.origin);
         let mut state = LiquidState::default();
         let mut shown = Vec::new();
+        // Rows are counted from the low side of the gap, which a body that moves up takes along.
+        let rising = self.setup.lattice.moving.filter(|moving| !moving.down);
+        let raised = rising.map_or(0.0, |moving| self.state.displacement[moving.body][1]);
+        let origin_m = [
+            origin.origin_m[0],
+            origin.origin_m[1] + raised,
+            origin.origin_m[2],
+        ];
         for pore in 0..mesh.pores.len() {
             let n = f64::from(mesh.pores[pore].voxels.count_ones());
             let volume = self.state.volumes[pore] * self.compressed(pore) / n;
@@ -64,7 +72,7 @@ impl Implicit {
                 state.position.push(std::array::from_fn(|a| {
                     let cells =
                         low[a] + mesh.edge(pore, a) * (voxel[a] as f64 + 0.5) / mesh.k as f64;
-                    (origin.origin_m[a] + origin.cell_m * cells) as f32
+                    (origin_m[a] + origin.cell_m * cells) as f32
                 }));
                 state.volume.push((volume * origin.cell_m.powi(3)) as f32);
             }

@@ -206,10 +206,13 @@ impl Problem<'_> {
     pub(crate) fn resistance(&self) -> f64 {
         let faces = self.unknowns.faces.iter();
         let pores = 0..self.mesh.pores.len();
+        let mut pistons = 0.0;
+        self.piston_friction(|friction| pistons += friction.power);
         faces
             .map(|&face| self.face_resistance(face as usize))
             .sum::<f64>()
             + pores.map(|pore| self.squeeze_resistance(pore)).sum::<f64>()
+            + pistons
     }
 
     /// Force per closing speed by the walls and the inertia of one face at rest relative to the grid.

@@ -7,6 +7,7 @@ mod edges;
 mod equations;
 mod fronts;
 mod halves;
+mod piston;
 mod profile;
 mod solution;
 mod stretching;

@@ -154,21 +154,15 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
                     if term.other.is_none() {
                         let against = flow.velocity[face] - term.closing * flow.speed;
                         let tension = problem.stiffness(pore) * term.weight * against;
-                        add_force(wall_ahead(problem, pore, up), tension);
+                        add_force(mesh.wall_code(pore, up), tension);
                     }
                 });
             }
         }
     }
+    problem.piston_friction(|friction| {
+        add_force(friction.walls, flow.speed * friction.force);
+        add_force(friction.piston, -flow.speed * friction.force);
+    });
     forces
-}
-
-/// Code of the body whose wall bounds a pore on its high (`up`) or low side along y.
-fn wall_ahead(problem: &Problem, pore: usize, up: bool) -> u8 {
-    let mesh = problem.mesh;
-    (mesh.voxels(pore))
-        .filter_map(|voxel| mesh.next_voxel(mesh.cell(pore), voxel, 1, up))
-        .map(|(cell, voxel)| mesh.code(cell, voxel))
-        .find(|&code| code != OPEN)
-        .unwrap_or(OPEN)
 }

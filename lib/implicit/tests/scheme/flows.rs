@@ -1,9 +1,9 @@
-//! Liquid in free flight, and liquid driven across rods by its weight.
+//! Liquid in free flight, liquid driven across rods by its weight, and pistons from above and below.
 
 use physics::{Boundary, Motion, Scheme, VoxelBlock, WallLaw};
 
 use crate::plain;
-use crate::runs::{advance, solved};
+use crate::runs::{advance, press, solved};
 
 /// Liquid in free flight keeps its velocity, but for the tiny friction that every face has.
 #[test]
@@ -54,4 +54,74 @@ fn flow_across_rods_in_plane_strain_is_that_of_finer_cells() {
     let [one, four] = [one, coarse].map(|v| v / reference - 1.0);
     println!("rods in plane strain: one cell a voxel {one:+.4}, four {four:+.4}");
     assert!(one.abs() < 0.04 && four.abs() < 0.01);
+}
+
+/// A piston presses liquid into a slit for 20 us: from above, or the same turned over. Forces on the piston and on the walls, and y
+/// of each point, from the end of the slit.
+fn pressed(down: bool) -> ([f64; 2], Vec<f32>) {
+    const HIGH: usize = 24;
+    let h = 2e-6;
+    let mut scene = plain::scene(h, [8, HIGH, 1]);
+    // From the end of the slit on: a slit of two cells, a reservoir of six between walls, a piston.
+    let place = |y: usize| if down { y } else { HIGH - 1 - y };
+    let block = |is_wall: &dyn Fn(usize, usize) -> bool| {
+        let at = |x, y, _| is_wall(x, place(y));
+        VoxelBlock::from_fn([0.0; 3], [h; 3], [8, HIGH, 1], at)
+    };
+    let beside = |x: usize| x == 0 || x == 7;
+    let slit = block(&|x, y| !beside(x) && (y == 0 || y < 9 && !(3..5).contains(&x)));
+    let sides = VoxelBlock::from_fn([0.0; 3], [h, HIGH as f64 * h, h], [8, 1, 1], |x, _, _| {
+        beside(x)
+    });
+    let walls = vec![sides, slit];
+    let piston = vec![block(&|x, y| !beside(x) && y >= 19)];
+    let speed = if down { -0.1 } else { 0.1 };
+    press(
+        &mut scene,
+        ["walls", "piston"],
+        [walls, piston],
+        Motion::Constant([0.0, speed, 0.0]),
+    );
+    let low = [h, if down { 9.0 } else { 5.0 } * h, 0.0];
+    scene.points = plain::fill(low, [0.5 * h, 0.5 * h, h], [12, 20, 1]);
+    let mut scheme = solved(&scene, 1e-8);
+    let mut report = advance(&mut scheme, 1e-6);
+    while scheme.displacements()[1][1].abs() < 2e-6 {
+        report = advance(&mut scheme, 1e-6);
+    }
+    let turned = |y: f32| {
+        if down {
+            y
+        } else {
+            (HIGH as f64 * h) as f32 - y
+        }
+    };
+    let mut heights: Vec<f32> = scheme
+        .liquid()
+        .position
+        .iter()
+        .map(|x| turned(x[1]))
+        .collect();
+    heights.sort_by(f32::total_cmp);
+    (
+        [report.pressure_top, report.pressure_bottom].map(f64::abs),
+        heights,
+    )
+}
+
+#[test]
+fn a_piston_from_below_presses_as_one_from_above() {
+    let (from_above, from_below) = (pressed(true), pressed(false));
+    for side in 0..2 {
+        let off = from_below.0[side] / from_above.0[side] - 1.0;
+        println!("side {side}: {off:.1e}");
+        assert!(off.abs() < 1e-4);
+    }
+    // The walls beside the piston bear its friction.
+    let [piston, walls] = from_above.0;
+    println!("walls over piston: {:.1e}", walls / piston - 1.0);
+    assert!((walls / piston - 1.0).abs() < 1e-4);
+    for (y, other) in from_above.1.iter().zip(&from_below.1) {
+        assert!((y - other).abs() < 1e-9, "{y} {other}");
+    }
 }

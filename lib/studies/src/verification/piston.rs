@@ -29,13 +29,13 @@ pub enum Drive {
 /// Bulk modulus, Pa: what the liquid gives way by then is next to nothing of what flows.
 const STIFF: f64 = 1e10;
 /// Equivalent length of piston, reservoir, mouth and front over the diameter in 24 cells, for one to two filled diameters:
-/// steady flow behind a flat front, by the implicit scheme with 6, 12 and 24 cells 0.379, 0.378 and 0.372 for the square, 0.308,
-/// 0.306 and 0.304 for a tube of 12 voxels, 0.316 for one of 24; and the front's shape, by finite elements -0.151 and
+/// steady flow behind a flat front, by the implicit scheme with 6, 12 and 24 cells 0.397, 0.396 and 0.390 for the square, 0.319,
+/// 0.317 and 0.315 for a tube of 12 voxels, 0.327 for one of 24; and the front's shape, by finite elements -0.151 and
 /// -0.146 (tests/references/front).
 fn finest(section: Section) -> f64 {
     match section {
-        Section::Square => 0.227,
-        Section::Round(_) => 0.164,
+        Section::Square => 0.245,
+        Section::Round(_) => 0.175,
     }
 }
 

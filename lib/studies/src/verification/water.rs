@@ -41,7 +41,8 @@ pub fn slit_scene(n: u32) -> Scene {
         wall: 2.0,
         dispersion: 210.0,
         meniscus: 1.0,
-        ends: 0.16,
+        piston: 0.304 + 0.357 * (f64::from(n) / 6.0).ln(),
+        front: -0.19,
     }
     .scene()
 }
@@ -62,7 +63,8 @@ pub fn tube_scene(n: u32) -> Scene {
         wall: std::f64::consts::PI / section.area(n),
         dispersion: 192.0,
         meniscus: BALL,
-        ends: 0.29,
+        piston: 0.183 + 0.268 * (f64::from(n) / 6.0).ln(),
+        front: -0.146,
     }
     .scene()
 }
@@ -83,10 +85,11 @@ struct Column {
     wall: f64,
     dispersion: f64,
     meniscus: f64,
-    /// Equivalent length of the flow at piston and front: what the same lumen of 6 cells shows without loss of
-    /// water. A slit of 3 cells shows 0.0, of 12 0.24 (Taylor's scraper in the piston's corners has no
-    /// limit); 0.1 more takes 0.5 % off the length.
-    ends: f64,
+    /// Equivalent length of a piston whose corners are as sharp as a cell (lib/studies/reference/plug.py). It has no limit
+    /// in finer cells: Taylor's scraper.
+    piston: f64,
+    /// Equivalent length of the front's shape, by finite elements.
+    front: f64,
 }
 
 impl Column {
@@ -97,7 +100,7 @@ impl Column {
             diffusivity: 0.5,
             dispersion: self.dispersion,
             meniscus: self.meniscus,
-            ends: [0.5 * self.ends; 2],
+            ends: [self.piston, self.front],
         };
         let unit = self.resistance * VISCOSITY / PRESSURE;
         let edges = |r: &Rectangle| (r.high[0] - r.low[0]) * (r.high[1] - r.low[1]);

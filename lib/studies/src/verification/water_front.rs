@@ -37,7 +37,7 @@ pub struct Front {
     pub dispersion: f64,
     /// How far contact lines are behind the filled length over that in a slit.
     pub meniscus: f64,
-    /// Equivalent lengths of the flow at the piston and at the front.
+    /// Equivalent lengths of the flow at the piston, and at a front whose contact lines are as far behind as they get.
     pub ends: [f64; 2],
 }
 
@@ -132,7 +132,8 @@ impl Front {
             let dt = (0.05 * (time + 1e-3) + 1e-4).min(0.02);
             let asked = self.asked(&slices, travel, &mixture, dt);
             let conductance = self.conductances(&slices, speed);
-            speed = self.speed(&slices, &mixture, &asked, &conductance);
+            let ends = [self.ends[0], self.ends[1] * self.curved(&slices, travel)];
+            speed = speed_of(&slices, &mixture, &asked, &conductance, ends);
             for (slice, asked) in slices.iter_mut().zip(&asked) {
                 slice.water -= asked * dt;
             }
@@ -173,32 +174,36 @@ impl Front {
         each.collect()
     }
 
-    /// Speed of the piston by Darcy's law, where each slice loses what its walls take and gains what
-    /// diffuses into it.
-    fn speed(
-        &self,
-        slices: &[Slice],
-        mixture: &Mixture,
-        asked: &[f64],
-        conductance: &[f64],
-    ) -> f64 {
-        let passed = |i: usize| conductance[i] * (slices[i + 1].ratio() - slices[i].ratio());
-        let (mut lost, mut drop, mut resistance) = (0.0, 0.0, 0.0);
-        let last = slices.len() - 1;
-        for (i, slice) in slices.iter().enumerate().rev() {
-            let from = if i < last { passed(i) } else { 0.0 };
-            let on = if i > 0 { passed(i - 1) } else { 0.0 };
-            let net = asked[i] - from + on;
-            let end = [(last, self.ends[0]), (0, self.ends[1])];
-            let more = end.iter().filter(|(at, _)| *at == i).map(|(_, e)| e);
-            let length = slice.length() + more.sum::<f64>();
-            let friction = mixture.factor(*slice) * length;
-            drop += friction * (lost + 0.5 * net);
-            resistance += friction;
-            lost += net;
-        }
-        (1.0 + drop) / resistance
+    /// How far the front is curved: the distance of its contact lines over the largest.
+    fn curved(&self, slices: &[Slice], travel: f64) -> f64 {
+        between(&BEHIND, self.filled(slices, travel)) / BEHIND[BEHIND.len() - 1].1
     }
+}
+
+/// Speed of the piston by Darcy's law, where each slice loses what its walls take and gains what diffuses into it.
+fn speed_of(
+    slices: &[Slice],
+    mixture: &Mixture,
+    asked: &[f64],
+    conductance: &[f64],
+    ends: [f64; 2],
+) -> f64 {
+    let passed = |i: usize| conductance[i] * (slices[i + 1].ratio() - slices[i].ratio());
+    let (mut lost, mut drop, mut resistance) = (0.0, 0.0, 0.0);
+    let last = slices.len() - 1;
+    for (i, slice) in slices.iter().enumerate().rev() {
+        let from = if i < last { passed(i) } else { 0.0 };
+        let on = if i > 0 { passed(i - 1) } else { 0.0 };
+        let net = asked[i] - from + on;
+        let end = [(last, ends[0]), (0, ends[1])];
+        let more = end.iter().filter(|(at, _)| *at == i).map(|(_, e)| e);
+        let length = slice.length() + more.sum::<f64>();
+        let friction = mixture.factor(*slice) * length;
+        drop += friction * (lost + 0.5 * net);
+        resistance += friction;
+        lost += net;
+    }
+    (1.0 + drop) / resistance
 }
 
 /// Diffusion along the lumen for `dt`, implicit: a tridiagonal system by Thomas' algorithm.
@@ -232,7 +237,7 @@ mod tests {
             diffusivity: 0.5,
             dispersion: 210.0,
             meniscus: 1.0,
-            ends: [0.08; 2],
+            ends: [0.16, 0.0],
         }
     }
 
