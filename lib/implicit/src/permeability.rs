@@ -6,7 +6,7 @@ use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 
 use crate::geometry::{Chords, Lattice, Mesh};
 use crate::liquid::FaceMap;
-use crate::settings::ITERATION_TOLERANCE;
+use crate::settings::{ITERATION_TOLERANCE, LINEAR_ITERATIONS};
 use crate::system::{
     Channels, Coefficients, Edges, Fronts, Problem, Unknowns, Viscosities, WallCouplings, masses,
     resistance, stiffnesses,
@@ -14,8 +14,6 @@ use crate::system::{
 
 /// Relative residual of the solve. The error of the flux is a tenth of it.
 const TOLERANCE: f64 = 0.1 * ITERATION_TOLERANCE;
-/// Bound on solver iterations, for solves that stagnate. Larger than in a step, since no later solve continues this one.
-const ITERATIONS: usize = 500;
 
 /// A permeability, its error estimate and the open volume behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -188,7 +186,7 @@ impl Through {
         };
         let solver = SaddleSolver::new(SaddleOptions {
             tolerance: TOLERANCE,
-            max_iterations: ITERATIONS,
+            max_iterations: LINEAR_ITERATIONS,
         });
         let solved = solver.solve(&system, &mut u, &mut p);
         solved.map_err(|e| e.to_string())?;

@@ -8,6 +8,10 @@ pub(crate) const LARGEST_CFL: f64 = 1.5;
 /// the solution does not have.
 pub(crate) const ITERATION_TOLERANCE: f64 = 1e-3;
 
+/// Bound on the iterations of a linear solve that no later one continues, for solves that stagnate. Rounding can make a few
+/// unknowns need twice as many iterations as there are of them.
+pub(crate) const LINEAR_ITERATIONS: usize = 2000;
+
 /// Settings of the implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

@@ -34,14 +34,12 @@ pub(super) fn thinning_distance(distance: f64, width: f64, first: f64, p: f64) -
     distance * (of(p) / of(1.0)).max(MIN_RATIO)
 }
 
-/// d ln(rate)/d ln(stress) of a law at a rate, 1/s.
+/// d ln(rate)/d ln(stress) of a law at a rate, 1/s; infinite at a yield stress.
 pub(super) fn steepness(law: &Viscosity, rate: f64) -> f64 {
     /// Ratio of the two rates of the difference quotient: a smaller one is lost in rounding, a larger one misses curvature.
     const RATE_RATIO: f64 = 1.01;
-    /// Bound on the result, which is infinite at a yield stress.
-    const MAX_STEEPNESS: f64 = 100.0;
     let index = 1.0 + (law.at(RATE_RATIO * rate) / law.at(rate)).ln() / RATE_RATIO.ln();
-    1.0 / index.max(1.0 / MAX_STEEPNESS)
+    1.0 / index.max(0.0)
 }
 
 #[cfg(test)]
@@ -73,6 +71,8 @@ mod tests {
                 let error = flux(distance, p) / exact(p) - 1.0;
                 assert!(error.abs() < 1e-9, "{n} cells, p = {p}: {error}");
             }
+            let yielding = thinning_distance(newtonian, width, first, f64::INFINITY);
+            assert_eq!(yielding, MIN_RATIO * newtonian);
         }
     }
 }

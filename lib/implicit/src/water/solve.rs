@@ -1,11 +1,10 @@
 //! Water balance of all pores: solves for the water ratio X of each, bounded from below by the limit of the walls' uptake.
 
+use crate::settings::LINEAR_ITERATIONS;
 use crate::system::MAX_PASSES;
 
 /// Relative residual of the solution, small enough that a run conserves water; a smaller one is below rounding.
 const TOLERANCE: f64 = 1e-10;
-/// Bound on the iterations: rounding can make a few unknowns need twice as many as there are of them.
-const MAX_ITERATIONS: usize = 2000;
 /// Relative tolerance on the lower limit of X, above the error of the solution.
 const LIMIT_TOLERANCE: f64 = 10.0 * TOLERANCE;
 
@@ -97,7 +96,7 @@ fn conjugate_gradients(nodes: &[Node], at_limit: &[bool], ratio: &mut [f64]) -> 
     let mut correction = scaled(&residual);
     let mut direction = correction.clone();
     let mut size = dot(&residual, &correction);
-    for _ in 0..MAX_ITERATIONS {
+    for _ in 0..LINEAR_ITERATIONS {
         if dot(&residual, &residual) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
             return true;
         }
