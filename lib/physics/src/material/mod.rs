@@ -1,13 +1,15 @@
 //! Constitutive laws of the liquid (paper Eqs. 1 and 2).
 
 mod cure;
+mod cure_law;
 mod laws;
 mod tait;
 mod viscosity;
 mod water;
 mod wetting;
 
-pub use cure::{Course, Cure, CureLaw, SET};
+pub use cure::{Cure, SET};
+pub use cure_law::{Course, CureLaw};
 pub use laws::Law;
 pub use tait::{TAIT_C, Tait};
 pub use viscosity::{Newtonian, Rheology, ShearRate, Table, Viscosity};
