@@ -11,11 +11,9 @@ CAPTION_press := Start, middle and end in three dimensions, $(SHOWN); adhesive i
 CAPTION_setup := How the bond is set up
 CAPTION_grid := The grid over the voxels
 CAPTION_adhesive := The adhesive alone, experiment and runs
-CAPTION_table2 := Table 2
-CAPTION_film := Film on an incline, points and profiles
 picture_caption = $(CAPTION_$(1)) $(foreach a,$(ADHESIVES),$(if $(filter $(a)-%,$(1)),$(NAME_$(a)): $(or $(CAPTION_$(1:$(a)-%=%)),$(1:$(a)-%=%))))
-# The first two stand in the summary.
-DRAWN = $(filter %.svg %.png,$(FIGURES))
+# The summary holds Table 2 itself; the film on an incline is no bond. The first two pictures stand in the summary.
+DRAWN = $(filter-out %/table2.$(FIRST) %/film.png,$(filter %.svg %.png,$(FIGURES)))
 FOREMOST = $(foreach a,$(firstword $(ADHESIVES)),$(filter %/$(a)-press.$(FIRST) %/$(a)-pressure.$(FIRST),$(DRAWN)))
 SHOWN_PICTURES = $(FOREMOST) $(filter-out $(FOREMOST),$(DRAWN))
 

@@ -211,7 +211,6 @@ fn figures_and_the_page_name_what_they_draw() {
             "--wood hidden \"PF, synthetic experiment=out/none/pf/experiment.mpts\"",
             "-o out/none/figures/pf-map.svg -o out/none/figures/pf-map.png",
             "--picture \"PF: The adhesive alone, experiment and runs=out/none/figures/pf-adhesive.svg\"",
-            "--picture \"Table 2=out/none/figures/table2.svg\"",
             "--experiment \"PF, synthetic experiment=out/none/pf/experiment.csv\"",
             "--picture \"PF: Slice through the end, implicit=",
         ],
