@@ -52,7 +52,7 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
     for number in [format!(">{wp:.2}</td>"), format!(">{wp:.3}</td>")] {
         assert!(page.contains(&number), "{number}");
     }
-    let (head, rest) = page.split_at(page.find("What to doubt").unwrap());
+    let (head, rest) = page.split_at(page.find("<h3>Limitations").unwrap());
     for told in [
         "<h2>Summary</h2>",
         "specimen",
@@ -63,7 +63,7 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
     ] {
         assert!(head.contains(told), "{told}");
     }
-    assert!(rest.contains("The error by the size of the cells is not known"));
+    assert!(rest.contains("The error due to the cell size is not known"));
     let count = |tag: &str| page.matches(tag).count();
     assert_eq!((count("<h1>"), count("<h2>")), (1, 5));
     assert_eq!(count("<img alt=\""), count("<img "));
@@ -120,7 +120,7 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
     assert!(!page.contains("7.77") && !page.contains("killed: wood and void"));
     for told in [
         "failed: failed: step 7: too &lt;fast&gt;",
-        "killed: not ended: mpm-run with --resume goes on",
+        "killed: not ended: mpm-run --resume continues it",
         "<td>not ended</td>",
         "failed: wood and void look exchanged",
         "lumens at the bond: 3.5 cells",

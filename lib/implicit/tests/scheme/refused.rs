@@ -42,7 +42,7 @@ fn what_the_grid_cannot_hold_is_refused() {
             Some("ends within the domain"),
         ),
         (DOWN, shaft, DOWN, Some("two bodies move along y")),
-        (SLANTING, shaft, STILL, Some("along y and aside")),
+        (SLANTING, shaft, STILL, Some("along y and sideways")),
         (
             DOWN,
             ([7.2, 1.0], [8.0, 8.0]),

@@ -48,6 +48,12 @@ pub fn plan(replaced: &[(&str, &str)], changes: &[&str]) -> Result<String, Strin
     Bench::with(&text).plan(changes).map_err(|e| e.to_string())
 }
 
+#[test]
+fn a_viscosity_is_printed_without_digits_of_rounding() {
+    let liquid = "                   1200 kg/m3, K 1.000e9 Pa, viscosity 0.7 Pa s\n";
+    says(&[("300 cP", "700 cP")], &[], &[liquid]);
+}
+
 /// Asserts that the plan has lines that begin with `lines`; returns the plan.
 #[track_caller]
 fn says(replaced: &[(&str, &str)], changes: &[&str], lines: &[&str]) -> String {
@@ -145,7 +151,7 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "grid.cell=4 um",
         "grid.domain.max=[\"20 um\", \"32 um\", \"8 um\"]",
     ];
-    let wp = "WP about 1.0 % (a small bond line), about 1.5 % (two sizes of cells, the worst of the bonds of make)";
+    let wp = "WP about 1.0 % (a small bond line), about 1.5 % (from two cell sizes, worst bond of the quick specimens)";
     says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);
     assert!(!default.contains("with the default"), "{default}");

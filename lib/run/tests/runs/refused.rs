@@ -41,7 +41,7 @@ const REFUSED: &[Refused] = &[
     (&[IMPLICIT[0], IMPLICIT[1], ("[contact]", HEATED)], &["adhesive.cure.reference_temperature=1400 C"], "a temperature up to 1000 K"),
     (&[], &["grid.dimensions=2", "boundary.z=open"], "plane strain"),
     (&[("velocity = \"clamp\"\n", "")], &[], "[clamp] has nothing to move"),
-    (&[], &["body.3.box.min.1=0.5 m"], "'3' is no index of an array of 3, which counts from 0"),
+    (&[], &["body.3.box.min.1=0.5 m"], "'3' is not an index of an array of 3 (counted from 0)"),
     (&[], &["body.0.box.min.3=0.5 m"], "there is no '3' to set"),
     (&[], &["clamp.stage.0.speed=1 m/s"], "the case has no entry '0' there to change"),
     (&[], &["clamp.stage.0=1"], "there is no '0' to set"),

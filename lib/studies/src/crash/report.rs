@@ -28,7 +28,7 @@ fn page(rows: &[Row], origin: &str, left_out: &[&str]) -> String {
         let (series, scheme, fault) = (row.series, row.scheme, row.fault);
         format!("| {series} | {scheme} | {fault} | {trials} | {right} |")
     };
-    let heads = "| series | scheme | fault | trials | as they must be |";
+    let heads = "| series | scheme | fault | trials | correct |";
     let trials: usize = rows.iter().map(|row| row.trials).sum();
     let wrong: usize = rows.iter().map(|row| row.wrong.len()).sum();
     let values = [

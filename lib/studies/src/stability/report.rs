@@ -107,7 +107,7 @@ fn not_stable(rows: &[Row]) -> String {
         format!("| {varied} | {value} | {ended} | {methods} | {sentence} |")
     };
     let kinds = distinct(rows.iter().map(|row| kind(row)));
-    let heads = "| varied | value | ended | methods | said by the first |";
+    let heads = "| varied | value | ended | methods | message of the first |";
     table(heads, kinds.into_iter().map(line))
 }
 

@@ -159,7 +159,7 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
         .run("empty")
         .refused(3, "a run that has written no final.mpts yet");
     let compared = bench.run("run/final.mpts --compare run/snapshots/0000.mpts");
-    compared.refused(2, "the experiment to compare with is no specimen");
+    compared.refused(2, "the file to compare with is not a specimen");
 }
 
 #[test]
