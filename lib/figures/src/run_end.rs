@@ -101,9 +101,9 @@ impl RunEnd {
         let closed_in = closed.map(|at| {
             let pressure = 1e-6 * stages[at]["pressure_pa"].as_f64().unwrap_or(f64::NAN);
             let kind = stages[at]["kind"].as_str().unwrap_or_default();
+            let stage = at + 1;
             format!(
-                "closed in stage {} ({kind}) at {pressure:.3} MPa, below the pressure of the stage",
-                at + 1
+                "closed in stage {stage} ({kind}) at {pressure:.3} MPa, below the pressure of the stage"
             )
         });
         let released = stages.last().is_some_and(|last| last["kind"] == "release");

@@ -38,11 +38,7 @@ fn pressed(runs: &[RunFolder]) -> String {
         }
     }
     let row = |(setup, labels): &(&Setup, Vec<&str>)| {
-        let kind = if setup.synthetic.is_empty() {
-            ""
-        } else {
-            " (synthetic)"
-        };
+        let kind = ["", " (synthetic)"][usize::from(!setup.synthetic.is_empty())];
         vec![
             labels.join(", "),
             format!("{}{kind}", setup.specimen),

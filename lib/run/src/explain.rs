@@ -97,16 +97,12 @@ fn liquid(setup: &Setup) -> String {
             format!("viscosity times {factor:.4} at the start, {set}"),
         );
     }
-    let wetting = liquid
-        .wetting
-        .as_ref()
-        .map(|wetting| wetting_text(wetting, cell_m));
-    out.extend(wetting.map(|told| line("wetting", told)));
-    let water = liquid
-        .water
-        .as_ref()
-        .map(|water| drying_text(water, cell_m));
-    out.extend(water.map(|told| line("loss of water", told)));
+    if let Some(wetting) = &liquid.wetting {
+        out += &line("wetting", wetting_text(wetting, cell_m));
+    }
+    if let Some(water) = &liquid.water {
+        out += &line("loss of water", drying_text(water, cell_m));
+    }
     out
 }
 

@@ -57,10 +57,7 @@ impl Plan {
             ))
         })?;
         let plan: Self = serde_json::from_str(&text).map_err(|e| {
-            Failure::data(format!(
-                "'{}' is not a plan of a sweep: {e}",
-                place.display()
-            ))
+            Failure::data(format!("'{}' is not a sweep plan: {e}", place.display()))
         })?;
         match plan.version == VERSION {
             true => Ok(plan),

@@ -98,10 +98,7 @@ pub fn text(table: csv::Writer<Vec<u8>>, written: csv::Result<()>) -> Result<Vec
 /// The row of a run; none where it has not ended. A file that is no row is damaged (exit 3).
 pub fn read(place: &Path) -> Result<Option<csv::StringRecord>, Failure> {
     let broken = |why: &dyn std::fmt::Display| {
-        Failure::data(format!(
-            "'{}' is not a row of a sweep: {why}",
-            place.display()
-        ))
+        Failure::data(format!("'{}' is not a sweep row: {why}", place.display()))
     };
     let text = match fs::read(place) {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),

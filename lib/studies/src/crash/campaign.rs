@@ -38,13 +38,9 @@ const SERIES: [Series; 6] = [
         &["--resume"],
         Way::Continued(1.0),
     ),
+    ("run replacing another", &["--overwrite"], Way::Replacing),
     (
-        "run that replaces another",
-        &["--overwrite"],
-        Way::Replacing,
-    ),
-    (
-        "run that replaces another, continued",
+        "run replacing another, continued",
         &["--resume", "--overwrite"],
         Way::Replacing,
     ),

@@ -10,13 +10,8 @@ use crate::study::{Study, filled, table};
 pub(super) fn write(study: &Study, rows: &[Row], left_out: &[&str]) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let [trials, wrong] = [row.trials, row.wrong.len()].map(|count| count.to_string());
-        vec![
-            row.series.into(),
-            row.scheme.into(),
-            row.fault.into(),
-            trials,
-            wrong,
-        ]
+        let words = [row.series, row.scheme, row.fault, &trials, &wrong];
+        words.map(String::from).to_vec()
     });
     study.write_csv("crash.csv", "series,scheme,fault,trials,wrong", fields)?;
     study.write("crash.md", page(rows, study.origin(), left_out))

@@ -127,7 +127,12 @@ fn failed(out: &mut String, rows: &[Row]) {
     }
     for r in rows {
         if let Some(said) = &r.failed {
-            let (label, said) = (&r.setting.method.label, said.replace('\n', " "));
+            let label = &r.setting.method.label;
+            let said = said
+                .split("mpm-run: ")
+                .last()
+                .unwrap_or(said)
+                .replace('\n', " ");
             let _ = writeln!(out, "- {label}, {}: {said}", r.flow.name());
         }
     }

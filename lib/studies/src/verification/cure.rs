@@ -126,13 +126,9 @@ impl Filling {
             let worst = worst(rows.map(|(&t, &s)| filled(s) / exact(from, since, t) - 1.0));
             let worst = worst.unwrap_or(f64::NAN);
             Ok(vec![
-                Measured::relative(
-                    "L at the end of the flow",
-                    filled(came),
-                    exact(0.0, 0.0, end),
-                ),
+                Measured::relative("L at the end", filled(came), exact(0.0, 0.0, end)),
                 Measured::absolute("L(t) from L = d on, worst", worst),
-                Measured::relative("time of the end of the flow", end, set),
+                Measured::relative("time at the end", end, set),
             ])
         })
     }

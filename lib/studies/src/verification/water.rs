@@ -139,7 +139,7 @@ impl Column {
             let missing = run.summary("water_missing");
             Ok(vec![
                 Measured::relative(
-                    "L at the end of the flow",
+                    "L at the end",
                     largest(course.iter().map(|p| p.1)),
                     exact.farthest(),
                 ),
