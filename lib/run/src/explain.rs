@@ -70,10 +70,8 @@ fn scene(setup: &Setup) -> String {
 fn liquid(setup: &Setup) -> String {
     let (liquid, cell_m) = (&setup.scene.liquid, setup.scene.grid.cell_m);
     let (points, volume) = (setup.liquid.points, setup.liquid.volume_m3);
-    let mut out = line(
-        "liquid",
-        format!("{points} material points, {volume:.4e} m3"),
-    );
+    let amount = format!("{points} material points, {volume:.4e} m3");
+    let mut out = line("liquid", amount);
     let viscosity = match &liquid.viscosity {
         Viscosity::Newtonian(law) => format!("{} Pa s", shortened(law.0)),
         Viscosity::Law(law) => law.to_string(),
@@ -83,19 +81,15 @@ fn liquid(setup: &Setup) -> String {
         }
     };
     let (density, bulk) = (shortened(liquid.density), liquid.tait.bulk_modulus);
-    out += &line(
-        "",
-        format!("{density} kg/m3, K {bulk:.3e} Pa, viscosity {viscosity}"),
-    );
+    let laws = format!("{density} kg/m3, K {bulk:.3e} Pa, viscosity {viscosity}");
+    out += &line("", laws);
     if let Some(cure) = &liquid.cure {
         let set = cure.set_at().map_or("never sets".to_owned(), |set| {
             format!("sets ({SET:e} times that) at {set:.4e} s")
         });
         let factor = cure.factor(0.0);
-        out += &line(
-            "cure",
-            format!("viscosity times {factor:.4} at the start, {set}"),
-        );
+        let start = format!("viscosity times {factor:.4} at the start, {set}");
+        out += &line("cure", start);
     }
     if let Some(wetting) = &liquid.wetting {
         out += &line("wetting", wetting_text(wetting, cell_m));
@@ -226,10 +220,9 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
     ]
     .concat();
     out += &forecast.notes;
-    let excess = forecast.excess();
-    out.extend(
-        excess.map(|excess| line("refused", format!("unless --yes-really is given: {excess}"))),
-    );
+    if let Some(excess) = forecast.excess() {
+        out += &line("refused", format!("unless --yes-really is given: {excess}"));
+    }
     out
 }
 
