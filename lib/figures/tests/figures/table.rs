@@ -118,7 +118,7 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         );
     }
     let shown = table.to_text();
-    let released = "pf let go: WP after its release, 7.00 um in total before it";
+    let released = "pf let go: WP is after the release, in total 7.00 um before it";
     for told in [released, "7.15 +- 0.25", "sqrt(bottom^2 + top^2)/2"] {
         assert!(shown.contains(told), "{shown}");
     }

@@ -137,7 +137,7 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "grid 10 x 10 x 3 cells of 2.9000 um, 3D",
         "lumen of 17.4 um 6.0 cells across",
         "measured with 6 cells across that lumen",
-        "both with the default Courant number",
+        "with the default Courant number",
     ];
     says(&[], &coarser, &lines);
     // Boxes on cell faces, with cells of 17.4/4 um.
@@ -168,7 +168,7 @@ fn departures_from_the_paper_are_named() {
         "pressure from the mean J of each cell, not the paper's",
         "density projection after every 0.04 cell of motion, not the paper's",
         "contact separation 0.8 cell, not the shape function's own",
-        "both with the default contact separation, points per direction",
+        "with the default contact separation, points per direction",
     ];
     says(&[], &changes, &lines);
 }
@@ -200,7 +200,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     leaves_out(&bench, &free, &[&drop[..], &of_update].concat());
     let of_implicit = [
         "PID no pressure limit",
-        "shear rate not known between states",
+        "shear rate computed only for written states",
     ];
     let implicit = [free[0], free[1], "integrator.scheme=implicit"];
     leaves_out(&bench, &implicit, &[&drop[..], &of_implicit].concat());
@@ -229,7 +229,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     let [soon, late] = [leaks("1 ns"), leaks("1000 s")];
     let side = |z| format!("boundary={{ x = \"open\", z = \"{z}\" }}");
     let [open, mirror] = [side("open"), side("symmetry")];
-    let closed = "beyond the sides the sides of the specimen close off the air";
+    let closed = "beyond the sides the sides of the specimen trap air";
     for (changes, doubted) in [
         (["boundary={ z = \"periodic\" }", air], true),
         ([open.as_str(), air], false),

@@ -169,9 +169,6 @@ fn the_plan_of_a_programme_forecasts_no_steps() {
     let plan = bench(STAGES).plan(&[]).unwrap();
     has(
         &plan,
-        &[
-            "\nsteps not forecast for a press programme",
-            " s a step on ",
-        ],
+        &["\nsteps no forecast for a press programme", " s a step on "],
     );
 }

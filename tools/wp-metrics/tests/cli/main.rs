@@ -184,7 +184,7 @@ fn raw_volumes_and_proposed_grey_values() {
         "--labels void=10000,wood=18000,adhesive=26000",
     ] {
         let run = bench.run(&format!("{raw} {values}")).done();
-        let told = run.said.contains("grey values taken as wood=");
+        let told = run.said.contains("grey values: wood=");
         assert_eq!(told, values == "--grey auto", "{}", run.said);
         let found = rows(&run.output());
         let [found, expected] = [&found, &expected].map(|rows| rows.iter().map(|row| &row[1..]));
