@@ -173,7 +173,7 @@ fn end(setup: &Setup) -> String {
         }
         Stop::Time(t) => format!("at {t:.4e} s"),
         Stop::Closed { travel_m } => format!(
-            "when closed after {:.2} um of travel, at {latest:.4e} s at the latest",
+            "closed after {:.2} um of travel, at {latest:.4e} s at the latest",
             travel_m * 1e6
         ),
     }

@@ -102,7 +102,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
         "sides x open, y symmetry, z symmetry",
         "clamp 2 m/s, at most 2.5000 MPa",
         // Twice the time at full speed.
-        "end when closed after 3.00 um of travel, at 3.0000e-6 s at the latest",
+        "end closed after 3.00 um of travel, at 3.0000e-6 s at the latest",
         // cell / (c + v) and rho cell^2 / (8 eta), half of it by the Courant number.
         "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the step is 0.5 (Courant number)",
         "time step 1.0000e-9 s, set by viscous",
@@ -272,7 +272,7 @@ fn walls_bodies_and_ends_of_every_kind() {
     ];
     says(&[one_wall, free, (low, &velocity)], &[], &lines);
     says(&[], &["clamp.stop=0.4 us"], &["end at 4.0000e-7 s"]);
-    let limited = "end when closed after 3.00 um of travel, at 2.0000e-6 s at the latest";
+    let limited = "end closed after 3.00 um of travel, at 2.0000e-6 s at the latest";
     says(&[], &["clamp.time_limit=2 us"], &[limited]);
     let unlimited = [
         "clamp 2 m/s, no pressure limit",
