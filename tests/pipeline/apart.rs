@@ -85,7 +85,7 @@ fn a_provenance_record_replaces_only_a_record() {
         "shear-stats bond.mpts -o y",
         "synth-xct -q --adhesive pf --size 64x128x64 -o y",
     ] {
-        refused(&bench, line, record, "is no provenance record");
+        refused(&bench, line, record, "is not a provenance record");
     }
     let two = "wp-metrics bond.mpts -o m.csv --map m.csv.provenance.json";
     refused(&bench, two, "bond.mpts", "is another output");
@@ -112,7 +112,7 @@ fn parts_of_a_series_replace_only_such_parts() {
     let others = |line: &str| {
         let first = bench.read("o.parts/0000-wood-bottom.vti");
         bench.write("o.parts/0000-wood-bottom.vti", [&first[..], b" "].concat());
-        refused(&bench, line, &path, "no part of an earlier output");
+        refused(&bench, line, &path, "not part of an earlier output");
         // Nothing is moved where one part cannot be.
         assert!(bench.read("o.parts/0000-wood-bottom.vti").ends_with(b" "));
     };

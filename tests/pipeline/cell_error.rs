@@ -100,9 +100,9 @@ C --finer implicit-finer/snapshots/0000.mpts | the same state
 C --finer other/final.mpts | different bonds
 C --finer thinner/final.mpts | differ in [adhesive]
 C --finer slipping/final.mpts | differ in [contact]
-C --finer specimen.mpts | does not say its cell_m
-specimen.mpts --pressure | does not say its pressure_pa
-C F --finer F | belongs to one file";
+C --finer specimen.mpts | has no cell_m
+specimen.mpts --pressure | has no pressure_pa
+C F --finer F | needs a single file";
     let [coarse, fine] = ["implicit", "implicit-finer"].map(|run| format!("{run}/final.mpts"));
     for line in refused.lines() {
         let (files, sentence) = line.split_once(" | ").unwrap();

@@ -92,7 +92,7 @@ fn an_unstable_run_leaves_its_checkpoint_and_goes_on_at_a_smaller_step() {
         let row = trial.run(bench.folder()).unwrap();
         println!("{row:?}");
         assert!(row.checkpoint < row.unstable, "{row:?}");
-        let named = "last good checkpoint, run/checkpoint.mpts";
+        let named = "from the last checkpoint, run/checkpoint.mpts";
         assert!(row.said.contains(named), "{}", row.said);
         match (&row.then, trial.scene) {
             (Ok(steps), "press") => {

@@ -161,7 +161,7 @@ fn a_sweep_of_one_row_has_a_figure_and_rows_of_commas_are_none() {
          bond-figures response one.csv --result wp_um -o one.svg"
     ));
     let drawn = bench.text("one.svg");
-    for wanted in ["\n1 run; bars: error by the size of the cells\n", "\nrow\n"] {
+    for wanted in ["\n1 run; bars: error due to the cell size\n", "\nrow\n"] {
         assert!(drawn.contains(wanted), "{wanted}: {drawn}");
     }
 }

@@ -10,7 +10,7 @@ use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
 use crate::verdicts::widened;
 use crate::workbench::{Workbench, npy_header};
 
-const SENTENCE: &str = "of memory, and this process may have";
+const SENTENCE: &str = "of memory, but this process may use";
 
 /// A line, in so many megabytes of address space and for 20 s at most, must end with `code` and a sentence.
 fn within(bench: &Workbench, megabytes: u32, code: i32, line: &str, sentence: &str) -> String {

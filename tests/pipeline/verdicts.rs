@@ -163,7 +163,7 @@ fn a_plan_says_what_would_be_refused_and_needs_no_memory() {
         "{plan}"
     );
     let run = "mpm-run -q case.toml -o run";
-    bench.ends(2, run, "--yes-really runs it all the same");
+    bench.ends(2, run, "--yes-really runs it anyway");
     bench.write("case.toml", changed(&[("velocity = \"clamp\"\n", "")]));
     bench.ends(2, run, "[clamp] has nothing to move");
     assert!(!bench.path("run").exists());

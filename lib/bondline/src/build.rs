@@ -201,7 +201,7 @@ impl Closed {
         let slab_m = slab_cells as f64 * cell_m;
         if slab_m > self.void_m {
             return Err(Error::new(format!(
-                "a slab of {:.3} um is more than all void of the closed pieces, {:.3} um over the bond area: they could never close; take thicker pieces or less adhesive",
+                "a slab of {:.3} um is more than all voids of the closed pieces hold ({:.3} um over the bond area), so they could never close; use thicker pieces or less adhesive",
                 1e6 * slab_m,
                 1e6 * self.void_m
             )));

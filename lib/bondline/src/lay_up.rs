@@ -143,7 +143,7 @@ fn to_equal_width(
     if !layup.crop {
         let [[i, j], [k, l]] = [low, high];
         return Err(Error::new(format!(
-            "the bottom piece is {i} x {j} voxels wide along {} and {} and the top piece, as it lies, {k} x {l}: crop them to be the same, or give --crop-to-fit for what they share from their low corners",
+            "the bottom piece is {i} x {j} voxels wide along {} and {} and the top piece, as it lies, {k} x {l}: crop them to the same size, or give --crop-to-fit to keep what they share from their low corners",
             Axis::ALL[a],
             Axis::ALL[b]
         )));
@@ -195,7 +195,7 @@ fn first_contact(bottom: BitsRef, top: BitsRef, normal: Axis) -> Result<(usize, 
             Ok((height - least, touching))
         }
         _ => Err(Error::new(
-            "nowhere along the normal does wood of the top piece come to rest on wood of the bottom piece",
+            "wood of the top piece meets wood of the bottom piece nowhere along the normal",
         )),
     }
 }

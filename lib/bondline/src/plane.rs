@@ -95,9 +95,9 @@ pub fn find_bond_line(specimen: &Specimen, normal: Axis) -> Result<BondLine, Err
         Some((fits, best)) if best > LEAST_CONTRAST && best > LARGER_CONTRAST * contrast => {
             let [best, contrast] = [best, contrast].map(|share| 100.0 * share);
             Err(Error::new(format!(
-                "the bond lies across {fits}, not across {normal}: adhesive covers up to {best:.1} % of the area more than wood in layers normal to {fits}, and {contrast:.1} % in those normal to {normal}",
+                "the bond lies across {fits}, not across {normal}: the excess of adhesive over wood is up to {best:.1} % of the area in layers normal to {fits}, and {contrast:.1} % in those normal to {normal}",
             ))
-            .help(format!("; give --normal {fits}, or the plane by hand")))
+            .help(format!("; give --normal {fits} or --plane")))
         }
         _ => found,
     }
@@ -115,11 +115,11 @@ fn bond_line_in(profile: &Profile) -> Result<BondLine, Error> {
     let contrast = profile.contrast(seed);
     if contrast <= 0.0 {
         return Err(Error::new(format!(
-            "no layer normal to {} looks like a bond line: in the best one adhesive covers {:.1} % of a layer less than wood, as if the bond were tilted too far or lay across another axis",
+            "no layer normal to {} looks like a bond line: in the best one adhesive covers {:.1} % of a layer less than wood; the bond may be tilted too far or normal to another axis",
             profile.normal,
             -100.0 * contrast
         ))
-        .help("; give the plane by hand or another --normal"));
+        .help("; give --plane or another --normal"));
     }
     let no_wood = |side| {
         let axis = profile.normal;

@@ -26,12 +26,12 @@ pub(crate) fn cells(
         let ways = (fewer.map(|n| format!("--voxels-per-cell {n}")).into_iter())
             .chain(more.map(|percent| format!("--tolerance {percent}%")))
             .chain([format!(
-                "of undamaged wood --slab '{:.3} um' or '{:.3} um'",
+                "for undamaged wood --slab '{:.3} um' or '{:.3} um'",
                 thinner * um,
                 (thinner + 1.0) * um
             )]);
         return Err(Error::new(format!(
-            "the adhesive would make a slab of {exact_cells:.4} cells of {um:.3} um; rounded to {cells} its volume changes by {:+.2} %, more than the tolerance of {:.2} %: give {}",
+            "the adhesive would be a slab of {exact_cells:.4} cells of {um:.3} um; rounding to {cells} changes its volume by {:+.2} %, more than the tolerance of {:.2} %: give {}",
             100.0 * rounding,
             100.0 * tolerance,
             ways.collect::<Vec<_>>().join(", or ")
@@ -84,11 +84,11 @@ mod tests {
             let error = cells(adhesive, 100, 2, tolerance, 2e-6).unwrap_err();
             error.to_string()
         };
-        let ways = "--voxels-per-cell 1, or --tolerance 5.7%, or of undamaged wood --slab '10.000 um' or '12.000 um'";
+        let ways = "--voxels-per-cell 1, or --tolerance 5.7%, or for undamaged wood --slab '10.000 um' or '12.000 um'";
         assert!(said(1060.0, 0.05).ends_with(ways));
         // No cell at all.
         assert!(
-            said(90.0, 1.0).ends_with("1, or of undamaged wood --slab '2.000 um' or '4.000 um'")
+            said(90.0, 1.0).ends_with("1, or for undamaged wood --slab '2.000 um' or '4.000 um'")
         );
     }
 

@@ -68,8 +68,8 @@ impl Places {
             return Ok(());
         };
         let twice = [
-            "is read and cannot be the output too: give another file name",
-            "is given for two outputs: give each a file name of its own",
+            "is an input and cannot also be the output: give another file name",
+            "is given for two outputs: give each its own file name",
         ];
         match self.taken(path, twice) {
             Some(why) => Err(Failure::usage(format!("{output} {why}"))),

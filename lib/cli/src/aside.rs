@@ -22,7 +22,7 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(path),
         }
     }
-    Err(io::Error::other("its symbolic links go round in a circle"))
+    Err(io::Error::other("its symbolic links form a loop"))
 }
 
 pub(crate) fn folder_of(path: &Path) -> &Path {

@@ -141,7 +141,7 @@ fn setup(common: &Common) -> Result<(), Failure> {
     let most = THREADS_PER_CORE * cores;
     if threads > most {
         message::warn(format!(
-            "{threads} threads would only wait for each other on {cores} cores; {most} are used"
+            "{threads} threads are too many for {cores} cores; {most} are used"
         ));
     }
     // The main thread is one of them: many small steps would otherwise wait for the pool's threads

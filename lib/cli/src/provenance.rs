@@ -72,7 +72,7 @@ pub(crate) fn may_replace(path: &Path) -> Result<(), Failure> {
             .map_err(|e| Failure::write(named, &e));
     }
     Err(Failure::usage(format!(
-        "'{}' is no provenance record and would be replaced by one: give another file name",
+        "'{}' is not a provenance record and would be replaced by one: give another file name",
         path.display()
     )))
 }

@@ -50,7 +50,7 @@ impl StagedFolder {
                 let named = provenance::beside(to).exists();
                 if !found.is_file() || named || !ours(to) {
                     return Err(Failure::usage(format!(
-                        "'{}' is no part of an earlier output and would be replaced: give another file name",
+                        "'{}' is not part of an earlier output and would be replaced: give another file name",
                         to.display()
                     )));
                 }

@@ -72,9 +72,9 @@ impl Axis {
         };
         axis.title += match beyond {
             [false, false] => "",
-            [false, true] => ", top: and more",
-            [true, false] => ", bottom: and less",
-            [true, true] => ", ends: and beyond",
+            [false, true] => ", top: or more",
+            [true, false] => ", bottom: or less",
+            [true, true] => ", ends: or beyond",
         };
         axis
     }

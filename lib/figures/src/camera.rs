@@ -254,7 +254,7 @@ mod tests {
 
     /// One voxel, and a film of one layer, are still there.
     #[test]
-    fn nothing_is_too_thin_to_be_seen() {
+    fn films_and_single_voxels_are_visible() {
         let camera = Camera::new(1, 0.0, 90.0);
         let first = |x: f64| x > 0.0 && x < 1.0;
         let film = shown(&solids(|_, y, _| first(y)), &camera).0;

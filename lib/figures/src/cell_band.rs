@@ -21,7 +21,7 @@ pub(crate) fn check(run: &Labelled, finer: &Labelled) -> Result<(), Error> {
     match (cell / half / RATIO - 1.0).abs() <= HAIR {
         true => Ok(()),
         false => Err(Error::Request(format!(
-            "'{}' has cells of {:.4} um and '{}' of {:.4} um: a finer run is the same in cells half as large",
+            "'{}' has cells of {:.4} um and '{}' of {:.4} um: a finer run is the same run with cells half as large",
             run.path.display(),
             1e6 * cell,
             finer.path.display(),

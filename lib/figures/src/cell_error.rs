@@ -79,8 +79,8 @@ impl Table2 {
     pub fn cell_errors_to_text(&self) -> String {
         let wide = self.widest();
         let mut text = String::from(
-            "With errors: implicit runs extrapolated to zero cell size (first order) +- the difference of the two sizes;\n\
-             other runs: difference from those.\n",
+            "With errors: implicit runs, extrapolated to zero cell size (first order) +- the difference between two cell sizes;\n\
+             other runs: difference from these.\n",
         );
         text += &format!("{:<9} {:<wide$}", "adhesive", "case");
         for q in &QUANTITIES[BESIDE_TABLE2..] {

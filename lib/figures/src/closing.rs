@@ -45,7 +45,7 @@ struct Axes {
 const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
 /// What the bands show.
-const BAND: &str = "error of the cells' size";
+const BAND: &str = "error due to the cell size";
 const UNSETTLED: &str = "not converged: error above the value";
 /// Yellow, which no series has.
 const UNSETTLED_COLOUR: [u8; 3] = [240, 200, 60];
@@ -128,7 +128,7 @@ fn read(
         let mut named = named.filter(|(run, _)| run.label == fine.label);
         let (Some((run, source)), None) = (named.next(), named.next()) else {
             return Err(Error::Request(format!(
-                "the finer run '{}' has the label of no run, or of several",
+                "the label of the finer run '{}' is that of no run or of several",
                 fine.label
             )));
         };

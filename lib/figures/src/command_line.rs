@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use particle_file::{ParticleFile, states_of_run};
+use particle_file::{ParticleFile, command_line, quoted, states_of_run};
 
 /// The command of the run in `folder` by its checkpoint or, before the first, a state: a run that was killed has no summary.
 pub(crate) fn of_states(folder: &Path) -> Option<Vec<String>> {
@@ -23,8 +23,8 @@ pub(crate) fn again(command: &[String], option: &str, key: Option<&str>) -> Stri
     let kept = command.iter().map(String::as_str);
     let kept = kept.filter(|word| !matches!(*word, "--resume" | "--overwrite"));
     let set = key.into_iter().flat_map(|key| ["--set", key]);
-    let words: Vec<String> = kept.chain([option]).chain(set).map(quoted).collect();
-    format!(":\n    {}", words.join(" "))
+    let words: Vec<&str> = kept.chain([option]).chain(set).collect();
+    format!(":\n    {}", command_line(&words))
 }
 
 /// The SET with which the same `make` does a run again with this key: that of the run, but for what make gives of its own, and
@@ -42,15 +42,6 @@ pub(crate) fn of_make(command: &[String], key: &str) -> String {
     let sets = pairs.map(|pair| pair[1].as_str()).filter(others);
     let sets: Vec<&str> = sets.chain([key]).collect();
     format!("make as before with SET={}", quoted(&sets.join(" ")))
-}
-
-/// A word for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 #[cfg(test)]
@@ -75,7 +66,7 @@ mod tests {
     fn a_killed_run_is_told_with_the_command_of_its_checkpoint() {
         let folder = tempfile::tempdir().unwrap();
         let advice = || RunEnd::in_folder(folder.path()).unwrap().0.advice();
-        let known = "not ended: mpm-run with --resume goes on";
+        let known = "not ended: mpm-run --resume continues it";
         assert_eq!(advice().unwrap(), known);
         let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [1.0; 3]);
         header.provenance.push(Provenance {

@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn what_rounds_to_zero_is_0() {
+    fn a_value_that_rounds_to_zero_is_printed_as_0() {
         assert_eq!([fixed(-4e-4, 3), signed(4e-4, 3)], ["0", "0"]);
         assert_eq!([signed(0.25, 2), signed(-1.0, 1)], ["+0.25", "-1.0"]);
     }

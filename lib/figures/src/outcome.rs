@@ -109,7 +109,7 @@ mod tests {
 
     /// 7.49 and 7.40 um, known to 0.17, were once the whole of an axis.
     #[test]
-    fn no_axis_is_finer_than_its_errors() {
+    fn an_axis_is_not_finer_than_the_errors_of_its_values() {
         let outcome = |error| Outcome::new("wp_um", vec![7.49, 7.4, f64::NAN], Some(error));
         let fall = |error| {
             let axis = outcome(error).axis();

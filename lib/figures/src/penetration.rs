@@ -124,7 +124,7 @@ fn of_history(
 ) -> Result<Vec<f64>, Error> {
     if !table.has(&column("bottom")) {
         return Err(Error::Request(format!(
-            "'{}' does not tell of penetration: a history does where the case has [output] penetration = true, and \
+            "'{}' has no penetration: a history has it if the case has [output] penetration = true, and \
              wp-metrics --series tells it of the snapshots of any run",
             table.name()
         )));

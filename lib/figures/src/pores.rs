@@ -10,7 +10,7 @@ use crate::{Error, Labelled, Mark, Plot};
 /// # Errors
 /// [`Error::Data`] for an unreadable file, a missing column, or one without numbers.
 pub fn pores(tables: &[Labelled]) -> Result<Plot, Error> {
-    let (x, y) = ("diameter (µm)", "share of the open volume up to it");
+    let (x, y) = ("diameter (µm)", "share of the open volume in smaller pores");
     let mut plot = Plot::new("Sizes of pores and lumens", x, y).logarithmic([true, false]);
     for named in tables {
         let table = Table::read(&named.path)?;

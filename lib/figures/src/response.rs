@@ -156,14 +156,14 @@ impl Sweep {
         let values = &self.results[0].values;
         match values.iter().filter(|v| !v.is_finite()).count() {
             0 => {}
-            n => title += &format!(", of which {n} have no result"),
+            n => title += &format!(", {n} of them without a result"),
         }
         match self.open.iter().filter(|open| **open).count() {
             0 => {}
             n => title += &format!("; rings: {n} did not close"),
         }
         if self.results.iter().any(|result| result.error > 0.0) {
-            title += "; bars: error by the size of the cells";
+            title += "; bars: error due to the cell size";
         }
         title
     }

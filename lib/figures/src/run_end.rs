@@ -101,9 +101,9 @@ impl RunEnd {
         let closed_in = closed.map(|at| {
             let pressure = 1e-6 * stages[at]["pressure_pa"].as_f64().unwrap_or(f64::NAN);
             let kind = stages[at]["kind"].as_str().unwrap_or_default();
+            let stage = at + 1;
             format!(
-                "closed in stage {} ({kind}) at {pressure:.3} MPa, less than that of the stage",
-                at + 1
+                "closed in stage {stage} ({kind}) at {pressure:.3} MPa, below the pressure of the stage"
             )
         });
         let released = stages.last().is_some_and(|last| last["kind"] == "release");
@@ -143,9 +143,9 @@ impl RunEnd {
                     None => format!("not closed, {gap} of the gap left"),
                     Some(held) if held > CLOSED => {
                         let held = percent(held);
-                        format!("not closed, {held} of the gap left, {gap} after its release")
+                        format!("not closed, {held} of the gap left, {gap} after the release")
                     }
-                    Some(_) => format!("opened by its release, {gap} of the gap"),
+                    Some(_) => format!("opened by the release, {gap} of the gap left"),
                 })
             }
             "time-limit" => Some("not closed".into()),
@@ -156,10 +156,10 @@ impl RunEnd {
     /// Which WP it has, of a programme that ended with a release.
     pub fn released(&self) -> Option<String> {
         let before = match self.held_wp_um? {
-            wp if wp.is_finite() => format!(", {wp:.2} um in total before it"),
+            wp if wp.is_finite() => format!(", in total {wp:.2} um before it"),
             _ => String::new(),
         };
-        Some(format!("WP after its release{before}"))
+        Some(format!("WP is after the release{before}"))
     }
 
     /// Of a press programme that closed the bond before its pressure: when.
@@ -174,7 +174,7 @@ impl RunEnd {
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
                 let command = again(&self.command, "--resume", None);
-                format!("{mark}: mpm-run with --resume goes on{command}")
+                format!("{mark}: mpm-run --resume continues it{command}")
             }
             end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; "),
             "time-limit" => {
@@ -182,7 +182,7 @@ impl RunEnd {
                 let command = again(&self.command, "--overwrite", Some(&limit));
                 let make = of_make(&self.command, &limit);
                 format!(
-                    "{open}: penetration of a press on its way. A longer press: --set \"{limit}\" ({make}){command}"
+                    "{open}: the penetration is that of an unfinished press. For a longer press: --set \"{limit}\" ({make}){command}"
                 )
             }
             end => format!("{open} when the run ended ({end})"),
@@ -282,8 +282,8 @@ mod tests {
                 { "kind": last, "travel_m": 1e-5 - gap_m },
             ]);
             let end = RunEnd::of(&told);
-            let released = "WP after its release, 7.00 um in total before it";
-            let closed = "closed in stage 1 (hold) at 0.010 MPa, less than that of the stage";
+            let released = "WP is after the release, in total 7.00 um before it";
+            let closed = "closed in stage 1 (hold) at 0.010 MPa, below the pressure of the stage";
             assert_eq!(end.closed_in(), Some(closed));
             assert_eq!(end.released(), (last == "release").then(|| released.into()));
             end.mark()
@@ -293,13 +293,13 @@ mod tests {
                 10.0,
                 3.5e-6,
                 "release",
-                "opened by its release, 35 % of the gap",
+                "opened by the release, 35 % of the gap left",
             ),
             (
                 8.0,
                 9.9e-6,
                 "release",
-                "not closed, 20 % of the gap left, 99 % after its release",
+                "not closed, 20 % of the gap left, 99 % after the release",
             ),
             (8.0, 2e-6, "release", "not closed, 20 % of the gap left"),
             (8.0, 2e-6, "hold", "not closed, 20 % of the gap left"),

@@ -43,14 +43,14 @@ pub fn setup(specimen: &Labelled, bond: &Labelled, page: Page) -> Result<Drawing
         position: Position::Share(0.5),
     };
     let slice = |label, file| Section::of(file, label, cut, Colouring::Plain, None);
-    let mut parted = slice("c) adherends parted, no adhesive", &pressed)?;
+    let mut parted = slice("c) adherends separated, no adhesive", &pressed)?;
     for pixel in &mut parted.pixels {
         if let Pixel::Adhesive(_) = pixel {
             *pixel = Pixel::Void;
         }
     }
     let slices = [
-        slice("b) a slice of it", &whole)?,
+        slice("b) slice of the specimen", &whole)?,
         parted,
         slice("d) slab of the same volume", &pressed)?,
     ];

@@ -85,12 +85,12 @@ const COLUMNS: &str = "adhesive,case,reference,bottom_wp_um,top_wp_um,total_wp_u
     bottom_wp_extrapolated_um,top_wp_extrapolated_um,total_wp_extrapolated_um,\
     bottom_wp_error_um,top_wp_error_um,total_wp_error_um,end,sound,gap_um,mark,\
     total_wp_before_release_um";
-const NOTE: &str = "paper: the paper's specimen, not this one";
+const NOTE: &str = "paper: the paper's own specimen, not this one";
 /// The state that a run ends with.
 const FINAL: &str = "final.mpts";
 /// What the numbers are, in the table for reading.
-pub const ERRORS: &str = "with \u{b1}: extrapolated to zero cell size (first order); the error is the difference of two sizes \
-    of cells, for a side at least the mean of both sides, for the total at least sqrt(bottom^2 + top^2)/2";
+pub const ERRORS: &str = "with \u{b1}: extrapolated to zero cell size (first order); the error is the difference between two cell \
+    sizes, but for a side at least the mean of both sides and for the total at least sqrt(bottom^2 + top^2)/2";
 
 impl Table2 {
     /// Reads the cases, sorted by adhesive in the order of first mention. A case named as in
@@ -279,7 +279,7 @@ fn is_of(table: &Path, named: &str, state: &Path) -> Result<(), Error> {
     match hash == format!("{now:016x}") {
         true => Ok(()),
         false => Err(Error::Data(format!(
-            "'{}' is not of '{}' as it is now: run wp-metrics again",
+            "'{}' does not belong to the present '{}': run wp-metrics again",
             table.display(),
             state.display()
         ))),

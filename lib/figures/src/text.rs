@@ -140,7 +140,7 @@ mod tests {
     /// DejaVu Sans: a capital H is 0.729 em high and advances by 0.752 em, with 0.098 em of
     /// white on each side.
     #[test]
-    fn a_capital_stands_where_its_anchor_says() {
+    fn a_capital_is_drawn_at_its_anchor() {
         let em = EM * SIZE;
         let near = |found: i32, expected: f64| (f64::from(found) - expected).abs() <= 1.5;
         let at = [200.0, 150.0];

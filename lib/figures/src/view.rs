@@ -93,7 +93,7 @@ impl Views {
         let normal = normals.first().copied().unwrap_or(1);
         if normals.iter().any(|other| *other != normal) {
             let said =
-                "the files have their bonds across different axes: one figure shows one way up";
+                "the files have different bond normals: a figure needs the same normal for all";
             return Err(Error::Request(said.into()));
         }
         Ok(Self {
@@ -205,7 +205,7 @@ impl Views {
         }
         let normal = ["x", "y", "z"][self.normal];
         let says =
-            format!("arrows:\u{a0}{length:.0}\u{a0}µm; {normal},\u{a0}up, is across the bond");
+            format!("arrows:\u{a0}{length:.0}\u{a0}µm; {normal}\u{a0}(up) is the bond normal");
         let left = origin[0] + high(0) + room + 14.0;
         let lines = measure::lines(&says, NORMAL, drawing.width - left - MARGIN, 4);
         let middle = top + 0.5 * STRIP - 0.5 * (lines.len() as f64 - 1.0) * LINE * NORMAL;

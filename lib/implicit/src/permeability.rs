@@ -50,16 +50,14 @@ pub fn permeability(
 ) -> Result<Permeability, String> {
     let [edge, y, z] = solid.voxel();
     if [y, z].iter().any(|other| (other / edge - 1.0).abs() > 1e-6) {
-        return Err("the voxels are no cubes: a permeability is found of cubes alone".into());
+        return Err("the voxels are not cubes: permeability needs cubes".into());
     }
     if axis > 2 || sides == Boundary::Open {
-        return Err(
-            "a permeability is along x, y or z, between sides that mirror or are periodic".into(),
-        );
+        return Err("permeability is along x, y or z, between symmetry or periodic sides".into());
     }
     if let Some(a) = (0..3).find(|&a| solid.dims()[a] < 2) {
         return Err(format!(
-            "there is one voxel along {}: a permeability takes two or more along every axis",
+            "there is one voxel along {}: permeability needs two or more along every axis",
             ["x", "y", "z"][a]
         ));
     }

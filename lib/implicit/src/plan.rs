@@ -92,9 +92,9 @@ fn stages(scene: &Scene) -> Stages {
     let gains = scene.clamp.and_then(|clamp| clamp.pid);
     let no_pid = match (list.has(Stages::LOAD), gains) {
         (true, Some(_)) => None,
-        (true, None) => Some("no pid: each step is solved for the speed that keeps the limit"),
+        (true, None) => Some("no pid: each step finds the speed that keeps the limit"),
         (false, _) => Some("no pressure limit"),
     };
-    let shear = "not known between states that are written, unless the viscosity depends on it";
+    let shear = "computed only for written states, unless the viscosity depends on it";
     (list.and("PID", no_pid.map(str::to_owned))).and("shear rate", Some(shear.into()))
 }

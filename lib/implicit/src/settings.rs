@@ -47,7 +47,7 @@ impl Settings {
     pub fn check(&self) -> Result<(), String> {
         if !(self.cfl > 0.0 && self.cfl <= LARGEST_CFL) {
             return Err(format!(
-                "cfl is {:?}: the implicit scheme takes more than 0 and at most {LARGEST_CFL} cells per step",
+                "cfl is {:?}: with the implicit scheme it must be above 0 and at most {LARGEST_CFL} cells per step",
                 self.cfl
             ));
         }
@@ -59,7 +59,7 @@ impl Settings {
         }
         if !(self.dynamic_angle >= 0.0 && self.dynamic_angle.is_finite()) {
             return Err(format!(
-                "dynamic_angle is {:?}: it is zero or more",
+                "dynamic_angle is {:?}: it must be at least zero",
                 self.dynamic_angle
             ));
         }

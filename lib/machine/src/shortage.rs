@@ -23,10 +23,10 @@ pub fn shortage(need: u64) -> Option<Shortage> {
 }
 
 impl fmt::Display for Shortage {
-    /// `17.2 GB of memory, and this process may have 2.0 GB`, to stand behind "needs" or "would take".
+    /// `17.2 GB of memory, but this process may use 2.0 GB`, to stand behind "needs" or "would take".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [need, have] = [self.need, self.have].map(bytes);
-        write!(f, "{need} of memory, and this process may have {have}")
+        write!(f, "{need} of memory, but this process may use {have}")
     }
 }
 
@@ -44,10 +44,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn need_and_have_are_named() {
+    fn a_shortage_names_needed_and_available_memory() {
         let (need, have) = (17_240_000_000, 1_536_000);
         let said = Shortage { need, have }.to_string();
-        assert_eq!(said, "17.2 GB of memory, and this process may have 2 MB");
+        assert_eq!(said, "17.2 GB of memory, but this process may use 2 MB");
         assert_eq!([400_000, 20, 0].map(bytes), ["400 kB", "1 kB", "0 kB"]);
         assert_eq!(shortage(0), None);
         if cfg!(target_os = "linux") {

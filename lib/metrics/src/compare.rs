@@ -32,7 +32,7 @@ pub fn compare(state: &State, experiment: &State) -> Result<[Agreement; 3], Erro
     let (Wood::Whole(wood), Adhesive::Voxels(adhesive)) = (experiment.wood, experiment.adhesive)
     else {
         return Err(Error::Usage(
-            "the experiment to compare with is no specimen: wood and adhesive voxels of one stack are needed".into(),
+            "the file to compare with is not a specimen: wood and adhesive voxels of one stack are needed".into(),
         ));
     };
     same_voxels(state, experiment)?;

@@ -31,7 +31,7 @@ pub fn depth_profile(
 ) -> Result<Vec<DepthLayer>, Error> {
     if matches!(datum, Datum::Tilted(_)) {
         return Err(Error::Usage(
-            "--profile counts layers, which a fitted, tilted plane does not have; use --reference mid, adherend or plane=LEN".into(),
+            "--profile counts layers, which a tilted, fitted plane does not have; use --reference mid, adherend or plane=LEN".into(),
         ));
     }
     let (n, voxel) = (state.normal.index(), state.voxel_m);

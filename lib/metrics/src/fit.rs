@@ -154,7 +154,7 @@ impl Plane {
         };
         self.error = [error([0.0, 1.0, 0.0]), error([0.0, 0.0, 1.0])];
         let said = match kept {
-            true => "no tilted plane cuts as little wood: the level one is kept,".into(),
+            true => "no tilted plane cuts less wood: the level plane is kept,".into(),
             false => format!("the plane fitted to {} columns is", middles.len()),
         };
         let said = format!("{said} {}", self.tilt());
@@ -175,7 +175,7 @@ impl Plane {
         }
         self.doubt = if bare {
             Some(format!(
-                "{said} and hardly known: a quarter of the bond area shows too few surfaces"
+                "{said} and uncertain: a quarter of the bond area shows too few surfaces"
             ))
         } else if unsure > 0.5 * opening {
             Some(format!(
@@ -185,7 +185,7 @@ impl Plane {
             ))
         } else if part < LEAST_FRACTION {
             Some(format!(
-                "{said} and hardly known: walls are so thin that they meet across only {:.1} % of the bond area, and lumens are mistaken for surfaces",
+                "{said} and uncertain: walls are so thin that they meet across only {:.1} % of the bond area, and lumens are mistaken for surfaces",
                 1e2 * part
             ))
         } else {
@@ -199,7 +199,7 @@ const QUARTERS: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], 
 
 fn too_few(middles: &[Middle]) -> String {
     format!(
-        "no plane can be fitted: only {} columns show the surfaces of both adherends, in too small a part of the bond area",
+        "no plane can be fitted: only {} columns show the surfaces of both adherends, too small a part of the bond area",
         middles.len()
     )
 }

@@ -43,7 +43,7 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<LevelledSpecimen, Stri
     });
     if new.contains(&0) {
         return Err(format!(
-            "its bond plane is {tilt}, and nothing of its {} x {} x {} voxels is left when it is turned back",
+            "its bond plane is {tilt}, and levelling leaves nothing of its {} x {} x {} voxels",
             old[0], old[1], old[2]
         ));
     }

@@ -117,7 +117,7 @@ impl<'a> State<'a> {
             }
         };
         let normal = Axis::from_index(header.normal.into())
-            .ok_or_else(|| Error::Data("the bond normal is no axis".into()))?;
+            .ok_or_else(|| Error::Data("the bond normal is not an axis".into()))?;
         Ok(Self {
             normal,
             voxel_m: header.voxel_m,

@@ -75,7 +75,7 @@ fn unequal_sides_about_a_given_plane() {
 }
 
 #[test]
-fn a_speck_is_left_out_at_99_percent_and_nothing_has_no_depth() {
+fn the_99_percent_depth_ignores_a_speck_and_no_adhesive_has_no_depth() {
     let stack = Stack::new([10, 60, 20], |x, y, z| match y {
         30..31 => 'a',
         55 if x == 0 && z == 0 => 'a',

@@ -175,7 +175,7 @@ fn a_constant_map_correlates_with_nothing() {
 }
 
 #[test]
-fn a_side_without_adhesive_agrees_in_nothing() {
+fn a_side_without_adhesive_has_no_overlap_or_correlation() {
     // No adhesive above the plane; the surfaces are still found in the experiment's wood.
     let mut bare = run(|x, z| [ours(x, z)[0], 0], WHOLE, 0.0);
     assert_eq!(against_theirs(&bare.state())[1].dice, 0.0);
@@ -218,5 +218,5 @@ fn other_voxels_places_and_widths_are_refused() {
     let usage = fault.is_usage();
     assert!(usage && fault.to_string().contains("30 layers"), "{fault}");
     let fault = compare(&measured, &bond.state()).unwrap_err().to_string();
-    assert!(fault.contains("no specimen"), "{fault}");
+    assert!(fault.contains("not a specimen"), "{fault}");
 }

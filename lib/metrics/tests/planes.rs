@@ -153,7 +153,7 @@ fn a_level_plane_that_is_kept_is_no_fit() {
         _ => 'w',
     });
     let said = doubted(&stack);
-    assert!(said.contains("the level one is kept"), "{said}");
+    assert!(said.contains("the level plane is kept"), "{said}");
     let datum = Datum::find(Reference::Fit, &stack.state(Axis::Y)).unwrap();
     let tilt = datum.tilt().unwrap();
     assert_eq!(tilt.deg, [0.0; 3]);
@@ -210,7 +210,7 @@ fn stepped(low: usize, layers: usize) -> Stack {
 
 /// Gaps of equal width count alike, whatever the rounding of their widths.
 #[test]
-fn gaps_that_are_as_wide_count_alike_wherever_they_are() {
+fn a_fitted_plane_is_the_same_for_a_gap_at_any_height() {
     for low in 15..40 {
         let stack = stepped(low, 60);
         let datum = Datum::find(Reference::Fit, &stack.state(Axis::Y)).unwrap();

@@ -91,7 +91,7 @@ fn a_square_duct_has_small_corners() {
 }
 
 #[test]
-fn no_pore_has_no_size() {
+fn wood_without_pores_has_no_pore_sizes() {
     assert!(sizes([4, 4, 4], |_| false).is_empty());
     assert!(sizes([4, 4, 4], |_| true).is_empty());
 }

@@ -56,13 +56,11 @@ impl Explicit {
         if self.is_alone(id) {
             self.unstable(id)
         } else if j <= SOUND_J.start {
-            "the liquid is crushed, probably between bodies that leave it no room".into()
+            "the liquid is crushed, probably between bodies that leave no room for it".into()
         } else if j >= SOUND_J.end {
             match self.scene.liquid.cavitation_pressure {
-                None => {
-                    "the liquid is torn apart: a cavitation_pressure limits the tension it carries"
-                }
-                Some(_) => "the liquid flies apart, beyond what a volume ratio can describe",
+                None => "the liquid is torn apart; a cavitation_pressure would limit its tension",
+                Some(_) => "the liquid has broken up, which a volume ratio cannot describe",
             }
             .into()
         } else {
@@ -73,17 +71,17 @@ impl Explicit {
     /// The likely cause of an instability at a point.
     pub(crate) fn unstable(&self, id: u32) -> String {
         let advice = format!(
-            "the step is {} of its {} limit",
+            "the time step is {} times its {} limit",
             self.settings.cfl, self.plan.limit
         );
         if self.is_alone(id) {
             // No other point shares the nodes and carries their velocity gradient to the next step, so
             // that the stress reverses the gradient in each.
             return format!(
-                "the run is unstable where that point is alone, a drop smaller than a cell; {advice}, and such a drop needs {ALONE_VISCOUS} of the viscous and {ALONE_ACOUSTIC} of the acoustic limit"
+                "the run is unstable at a single point, a drop smaller than a cell; {advice}; a single point needs {ALONE_VISCOUS} times the viscous and {ALONE_ACOUSTIC} times the acoustic limit"
             );
         }
-        format!("the run is unstable; {advice} and a smaller cfl may help")
+        format!("the run is unstable; {advice}, and a smaller cfl may help")
     }
 
     /// Whether no other point is within a cell and a half, the reach of a node, of this one.

@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn segments_are_the_table() {
+    fn segments_interpolate_the_viscosity_table() {
         let table = Table::new(&[(1.0, 210.0), (6.3, 87.0), (40.0, 1.7), (501.0, 1.0)]).unwrap();
         let segments = Segments::new(&table, 1200.0);
         for i in -20..80 {

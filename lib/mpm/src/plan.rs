@@ -21,7 +21,7 @@ impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Limit::Acoustic => "acoustic, cell/(c + |v|)",
-            Limit::Viscous => "viscous, rho cell^2/(8 eta)",
+            Limit::Viscous => "viscous (rho cell^2/(8 eta))",
         })
     }
 }

@@ -175,7 +175,7 @@ impl Settings {
                 ))
             }
             VelocityUpdate::Apic if self.shape == ShapeFunction::Linear => Err(
-                "velocity_update \"apic\" needs shape \"gimp\" or \"bspline2\": with \"linear\" a point on a node has no affine inertia".into(),
+                "velocity_update \"apic\" needs shape \"gimp\" or \"bspline2\": with \"linear\" it is undefined for a point on a node".into(),
             ),
             _ => Ok(()),
         }

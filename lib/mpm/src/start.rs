@@ -44,7 +44,7 @@ impl Explicit {
         settings.check()?;
         if scene.bodies.len() > 64 {
             return Err(format!(
-                "the scene has {} rigid bodies: the explicit scheme takes at most 64",
+                "the scene has {} rigid bodies: the explicit scheme accepts at most 64",
                 scene.bodies.len()
             ));
         }

@@ -163,7 +163,7 @@ impl Explicit {
         }
         match fault {
             Some(id) => Err(Failure(format!(
-                "step {}: liquid point {id} would move by more than 0.9 of a cell or its velocity is not finite: {}",
+                "step {}: liquid point {id} would move by more than 0.9 of a cell, or its velocity is not finite: {}",
                 self.state.step + 1,
                 self.unstable(id)
             ))),

@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn points_by_eights_are_points_one_by_one() {
+    fn stresses_of_eight_points_at_once_are_those_of_single_points() {
         dispatch(Batches);
         Batches.run::<false>();
     }

@@ -132,7 +132,7 @@ impl ParticleFile {
         match dims.and_then(|dims| BitsRef::from_words(dims, words)) {
             Some(bits) if bits.count() == block.count => Ok((block, bits)),
             _ => Err(self.corrupt(format!(
-                "says that block '{}' has {} voxels, which is not what its bits say",
+                "says that block '{}' has {} voxels, but its bits say otherwise",
                 block.name, block.count
             ))),
         }
@@ -257,7 +257,7 @@ fn read_header(file: &[u8]) -> Result<Stored, String> {
     let mut placed = stored.sections.clone();
     let file_len = layout::place(&mut placed, preamble.header_len);
     if file_len != Some(preamble.file_len) || placed != stored.sections {
-        return Err("has arrays that do not lie one behind the other".into());
+        return Err("has arrays that do not follow one another".into());
     }
     match file.last_chunk::<END_LEN>() {
         Some(end) if *end == layout::end_marker(preamble.checksum) => Ok(stored),

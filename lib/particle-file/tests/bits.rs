@@ -10,7 +10,7 @@ fn pattern(x: usize, y: usize, z: usize) -> bool {
 
 /// By rows, by voxels and by layers, against the words of rows put together voxel by voxel.
 #[test]
-fn every_way_to_look_at_a_grid_agrees() {
+fn all_accessors_of_a_bit_grid_agree() {
     for nx in [1, 63, 64, 65, 130] {
         let dims = [nx, 3, 4];
         let asked = AtomicUsize::new(0);

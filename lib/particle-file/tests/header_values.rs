@@ -40,7 +40,7 @@ fn an_attribute_is_set_once() {
 
 /// The last ones were written and read before, and panicked or hung whoever used them.
 #[test]
-fn numbers_that_are_none_are_in_no_header() {
+fn invalid_header_values_are_refused() {
     type Change = fn(&mut Header);
     let changes: [(Change, &str); 14] = [
         (|h| h.normal = 3, "normal"),
@@ -139,7 +139,7 @@ fn the_span_is_that_of_the_box_and_of_all_blocks() {
 
 /// 32 MiB, and 64 bytes for each byte of the file.
 #[test]
-fn a_file_is_worth_so_much_and_no_more() {
+fn memory_for_a_file_is_limited_by_its_length() {
     let bytes = written(&Draft::new(header())).unwrap();
     let file = ParticleFile::from_bytes(&bytes).unwrap();
     let most = 33_554_432 + 64 * bytes.len() as u64;

@@ -52,9 +52,9 @@ pub fn breaks(pressure: f64, limit: f64, scale: f64) -> bool {
 /// A clause for a run in whose last step `pressure` (Pa) breaks the limit.
 pub fn broken(pressure: f64) -> String {
     format!(
-        "liquid presses the clamp's body with {pressure:.3e} Pa in the last step, above its \
-         max_pressure: the clamp stands and does not go back, and other bodies, a force, the \
-         liquid's own inertia or its compression press on; a later end or a lower closing_speed may help"
+        "liquid presses on the clamp's body with {pressure:.3e} Pa in the last step, above its \
+         max_pressure: the clamp has stopped and cannot move back, while other bodies, a force, inertia or \
+         compression of the liquid maintain the pressure; a later end or a lower closing_speed may help"
     )
 }
 

@@ -78,7 +78,7 @@ impl Regime {
         }
         if let Some(strain) = self.volume_strain.filter(|s| *s > 0.05) {
             said.push(format!(
-                "the liquid shrinks by {:.0} % at the pressure limit: its bulk modulus is too low to be called nearly incompressible",
+                "the liquid shrinks by {:.0} % at the pressure limit: its bulk modulus is too low for a nearly incompressible liquid",
                 100.0 * strain
             ));
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use figures::{Known, RunEnd, Table, fixed, pressure_limit, time_unit};
-use particle_file::{ParticleFile, file_of_run};
+use particle_file::{ParticleFile, command_line, file_of_run};
 use serde_json::Value;
 
 use crate::setup::Setup;
@@ -164,16 +164,16 @@ impl RunFolder {
     /// Everything that it says, to be opened.
     pub(crate) fn to_html(&self) -> String {
         let mut out = html::details(
-            "Parameters, with the defaults that held (resolved.toml)",
+            "Parameters, including defaults (resolved.toml)",
             &html::verbatim(&self.resolved),
         );
-        out += &html::details("Error to expect", &self.expected_error());
+        out += &html::details("Expected error", &self.expected_error());
         let left_out = rows(self.list("/left_out"), ["what", "why"]);
-        let left_out = html::table("Not computed", &["what", "why"], &left_out);
-        out += &html::details("What was left out", &left_out);
+        let left_out = html::table("Not computed", &["effect", "reason"], &left_out);
+        out += &html::details("Effects not modelled", &left_out);
         let mut checks = self.object("/invariants");
         checks.extend(self.object("/counts"));
-        let checks = html::table("Last state and counts", &["what", "value"], &checks);
+        let checks = html::table("Last state and counts", &["quantity", "value"], &checks);
         out += &html::details("Invariants", &checks);
         out += &html::details("Cost", &self.cost());
         out + &html::details("Provenance", &self.provenance())
@@ -187,12 +187,12 @@ impl RunFolder {
 
     fn expected_error(&self) -> String {
         let Some(expected) = self.summary.get("expected_error") else {
-            return "<p>This run does not say it: it has not ended, or an earlier version made it; <code>mpm-run --explain</code> tells it.</p>\n".into();
+            return "<p>Not recorded: the run has not ended, or an earlier version made it. <code>mpm-run --explain</code> prints it.</p>\n".into();
         };
         let across = self.number("/expected_error/cells_per_lumen", 1.0, 1);
         let Some(cells) = expected.get("measured_with_cells").and_then(Value::as_f64) else {
             return format!(
-                "<p>Not measured with this update, shape and options; a lumen of 17.4 um is {across} cells across.</p>\n"
+                "<p>Not measured with this update, shape and options. A lumen of 17.4 um is {across} cells across.</p>\n"
             );
         };
         let list = self.list("/expected_error/errors");
@@ -214,7 +214,7 @@ impl RunFolder {
             &errors,
         ) + &lumens.collect::<String>()
             + &format!(
-                "<p>A lumen of 17.4 um is {across} cells across here and {cells} in the measurement, some walls between nodes. A slit was measured against finite elements, a bond line against finer runs of the implicit scheme alone.{}</p>\n",
+                "<p>A lumen of 17.4 um is {across} cells across here and was {cells} in the measurement, with some walls between nodes. References are finite elements for the slit and finer runs of the implicit scheme for the bond line.{}</p>\n",
                 html::escape(&others)
             )
     }
@@ -237,7 +237,7 @@ impl RunFolder {
         for (row, stage) in stages.iter_mut().zip(list) {
             row.push(number(&stage["wall_s"], 1.0, 3));
         }
-        html::table("Whole run", &["what", "value"], &facts)
+        html::table("Whole run", &["quantity", "value"], &facts)
             + &html::table("Stages of a step", &["stage", "wall time (s)"], &stages)
     }
 
@@ -247,7 +247,7 @@ impl RunFolder {
         let inputs = rows(self.list("/provenance/inputs"), ["path", "xxh3"]);
         let tool = self.text("/provenance/tool") + " " + &self.text("/provenance/version");
         format!("<p>{}</p>\n", html::escape(&tool))
-            + &html::verbatim(&command.join(" "))
+            + &html::verbatim(&command_line(&command))
             + &html::table("Inputs", &["file", "XXH3-64"], &inputs)
     }
 }

@@ -52,7 +52,7 @@ fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
     match bytes.len() as u64 > most {
         false => Ok(bytes),
         true => Err(Error::Data(format!(
-            "'{name}' has more than {most} bytes, the most that a page takes of such a file"
+            "'{name}' has more than {most} bytes, the limit for such a file in a page"
         ))),
     }
 }
@@ -60,5 +60,5 @@ fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
 /// The same as text.
 fn read_text(path: &Path, most: u64) -> Result<String, Error> {
     let text = String::from_utf8(read(path, most)?);
-    text.map_err(|_| Error::Data(format!("'{}' is not a text in UTF-8", path.display())))
+    text.map_err(|_| Error::Data(format!("'{}' is not UTF-8 text", path.display())))
 }

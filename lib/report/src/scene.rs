@@ -51,7 +51,7 @@ pub fn scene(file: &Labelled) -> Result<String, Error> {
     let label = escape(&file.label);
     let detail = escape(&window.told(labels.dims, labels.voxel_m));
     Ok(format!(
-        "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside\" src=\"data:image/png;base64,{picture}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: adhesive in orange, the nearer half of the wood cut away; {detail}.</figcaption></figure>\n"
+        "<figure class=\"scene\"><img alt=\"{label}: oblique view of the pressed bond\" src=\"data:image/png;base64,{picture}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: adhesive in orange, the nearer half of the wood cut away; {detail}.</figcaption></figure>\n"
     ))
 }
 
@@ -96,7 +96,7 @@ impl Window {
             .collect();
         let part = match self.axes.map(|a| dims[a]) == self.size {
             true => "",
-            false => "where it can be turned, the middle of the specimen, ",
+            false => "middle of the specimen in the interactive view, ",
         };
         let (edges, up) = (edges.join(", "), names[1]);
         format!("{part}{edges}; {up} is up, the bond normal")
@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(part.voxel([0, 0, 0]), [184, 184, 0]);
         assert_eq!(part.voxel([1, 2, 3]), [187, 185, 2]);
         assert!(part.told([400, 400, 700], 1e-6).starts_with(
-            "where it can be turned, the middle of the specimen, 31.0 um along y, 700.0 um along z"
+            "middle of the specimen in the interactive view, 31.0 um along y, 700.0 um along z"
         ));
     }
 }

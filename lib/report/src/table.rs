@@ -17,7 +17,7 @@ pub fn table(file: &Labelled) -> Result<String, Error> {
     let rows = table.rows();
     if rows.len() > MOST_ROWS {
         return Err(Error::Data(format!(
-            "'{}' has {} rows: a page takes tables of 1 to {MOST_ROWS}",
+            "'{}' has {} rows: a page accepts tables of 1 to {MOST_ROWS}",
             table.name(),
             rows.len()
         )));

@@ -90,7 +90,7 @@ fn child_mut<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml:
             let length = list.len();
             let index = part.parse::<usize>().ok();
             index.and_then(|i| list.get_mut(i)).ok_or_else(|| {
-                format!("'{part}' is no index of an array of {length}, which counts from 0")
+                format!("'{part}' is not an index of an array of {length} (counted from 0)")
             })
         }
         _ => Err(format!("the case has no entry '{part}' there to change")),

@@ -51,7 +51,7 @@ pub struct QuantityError {
     pub relative: f64,
 }
 
-/// Relative error of the implicit scheme's pressure in the step in which one of two lumens fills, against short steps
+/// Relative error of the implicit scheme's pressure in the step in which the first of two lumens is full, against short steps
 /// (`cargo test -p implicit --test scheme a_lumen_that_fills`).
 const FILLING_STEP_ERROR: f64 = 0.67;
 
@@ -67,14 +67,14 @@ pub(crate) fn expect(case: &Case, cell_m: f64) -> ExpectedError {
         ("clamp pressure", bond, pressure),
         (
             "clamp pressure",
-            "the step in which one of two lumens fills",
+            "the step in which the first of two lumens is full",
             two_sizes.map(|_| FILLING_STEP_ERROR),
         ),
         ("flow in lumens", "plane channel", channel),
         ("WP", bond, wp),
         (
             "WP",
-            "two sizes of cells, the worst of the bonds of make",
+            "from two cell sizes, worst bond of the quick specimens",
             two_sizes,
         ),
     ];
@@ -105,7 +105,7 @@ pub(crate) fn expect(case: &Case, cell_m: f64) -> ExpectedError {
 pub(crate) fn text(case: &Case, cell_m: f64) -> String {
     let expected = expect(case, cell_m);
     let across = expected.cells_per_lumen;
-    let mut out = "\nerror to expect (measured, docs/results/tradeoff.md)\n".to_owned();
+    let mut out = "\nexpected error (measured, docs/results/tradeoff.md)\n".to_owned();
     out += &line("lumen of 17.4 um", format!("{across:.1} cells across"));
     let Some(cells) = expected.measured_with_cells else {
         let not = "not measured with this update, shape and options";
@@ -119,13 +119,14 @@ pub(crate) fn text(case: &Case, cell_m: f64) -> String {
         });
         out += &line(errors[0].quantity, measured.collect::<Vec<_>>().join(", "));
     }
-    let walls = format!("{cells} cells across that lumen, some walls between nodes");
+    let walls = format!("{cells} cells across that lumen, some of its walls between nodes");
     out += &line("measured with", walls);
-    let against = "a slit, against finite elements; a bond line, against finer runs of the implicit scheme alone";
+    let against =
+        "a slit, against finite elements; a bond line, against finer runs of the implicit scheme";
     out += &line("measured in", against);
     match expected.not_as_measured.join(", ") {
         none if none.is_empty() => out,
-        other => out + &line("", format!("both with the default {other}")),
+        other => out + &line("", format!("with the default {other}, unlike this case")),
     }
 }
 

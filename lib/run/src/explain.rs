@@ -4,6 +4,7 @@ use physics::{
     Choice, Cure, Dimensions, Motion, Press, PressStage, Regime, SET, Scene, Stop, Viscosity,
     VoxelBlock, WallLaw, Water, Wetting,
 };
+use units::shortened;
 
 use crate::case::{Case, SchemeName};
 use crate::forecast::{Forecast, line};
@@ -57,7 +58,10 @@ fn scene(setup: &Setup) -> String {
         let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
             format!("at most {}", summary::pressure(p, 4))
         });
-        out += &line("clamp", format!("{} m/s, {limit}", clamp.closing_speed));
+        out += &line(
+            "clamp",
+            format!("{} m/s, {limit}", shortened(clamp.closing_speed)),
+        );
     }
     out + &line("end", end(setup))
 }
@@ -66,43 +70,33 @@ fn scene(setup: &Setup) -> String {
 fn liquid(setup: &Setup) -> String {
     let (liquid, cell_m) = (&setup.scene.liquid, setup.scene.grid.cell_m);
     let (points, volume) = (setup.liquid.points, setup.liquid.volume_m3);
-    let mut out = line(
-        "liquid",
-        format!("{points} material points, {volume:.4e} m3"),
-    );
+    let amount = format!("{points} material points, {volume:.4e} m3");
+    let mut out = line("liquid", amount);
     let viscosity = match &liquid.viscosity {
-        Viscosity::Newtonian(law) => format!("{} Pa s", law.0),
+        Viscosity::Newtonian(law) => format!("{} Pa s", shortened(law.0)),
         Viscosity::Law(law) => law.to_string(),
         table => {
-            let [rest, fast] = [0.0, 1e6].map(|rate| table.at(rate));
+            let [rest, fast] = [0.0, 1e6].map(|rate| shortened(table.at(rate)));
             format!("table, {rest} Pa s at rest, {fast} Pa s at 1e6 1/s")
         }
     };
-    let (density, bulk) = (liquid.density, liquid.tait.bulk_modulus);
-    out += &line(
-        "",
-        format!("{density} kg/m3, K {bulk:.3e} Pa, viscosity {viscosity}"),
-    );
+    let (density, bulk) = (shortened(liquid.density), liquid.tait.bulk_modulus);
+    let laws = format!("{density} kg/m3, K {bulk:.3e} Pa, viscosity {viscosity}");
+    out += &line("", laws);
     if let Some(cure) = &liquid.cure {
         let set = cure.set_at().map_or("never sets".to_owned(), |set| {
             format!("sets ({SET:e} times that) at {set:.4e} s")
         });
         let factor = cure.factor(0.0);
-        out += &line(
-            "cure",
-            format!("viscosity times {factor:.4} at the start, {set}"),
-        );
+        let start = format!("viscosity times {factor:.4} at the start, {set}");
+        out += &line("cure", start);
     }
-    let wetting = liquid
-        .wetting
-        .as_ref()
-        .map(|wetting| wetting_text(wetting, cell_m));
-    out.extend(wetting.map(|told| line("wetting", told)));
-    let water = liquid
-        .water
-        .as_ref()
-        .map(|water| drying_text(water, cell_m));
-    out.extend(water.map(|told| line("loss of water", told)));
+    if let Some(wetting) = &liquid.wetting {
+        out += &line("wetting", wetting_text(wetting, cell_m));
+    }
+    if let Some(water) = &liquid.water {
+        out += &line("loss of water", drying_text(water, cell_m));
+    }
     out
 }
 
@@ -126,7 +120,7 @@ fn drying_text(water: &Water, cell_m: f64) -> String {
     let [start, least] = [water.start(), water.least()];
     let leaves = (start - least) / (1.0 + start);
     format!(
-        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest dries so far in {:.3e} s, diffusion to its wall takes {:.1e} s",
+        "{:.1} to {:.1} % solids, viscosity times {:.4}; in a tube of six cells without flow, drying takes {:.3e} s and diffusion to the wall {:.1e} s",
         100.0 * water.solids(start),
         100.0 * water.solids(least),
         water.factor(least),
@@ -143,7 +137,10 @@ fn walls(scene: &Scene) -> String {
         let solid: u64 = body.blocks.iter().map(VoxelBlock::count).sum();
         let motion = match body.motion {
             Motion::Fixed => "at rest".to_owned(),
-            Motion::Constant([x, y, z]) => format!("moves at ({x}, {y}, {z}) m/s"),
+            Motion::Constant(v) => {
+                let [x, y, z] = v.map(shortened);
+                format!("moves at ({x}, {y}, {z}) m/s")
+            }
             Motion::Clamped => "driven by the clamp".to_owned(),
         };
         out += &line("rigid body", format!("{name}: {solid} voxels, {motion}"));
@@ -169,14 +166,14 @@ fn end(setup: &Setup) -> String {
         Stop::Closed { travel_m } if !scene.programme.is_empty() => {
             let set = scene.liquid.cure.as_ref().and_then(Cure::set_at);
             format!(
-                "with the last stage, at the latest at {:.4e} s; the clamp stands after {:.2} um of travel",
+                "with the last stage, at {:.4e} s at the latest; the clamp stops after {:.2} um of travel",
                 set.map_or(latest, |set| set.min(latest)),
                 travel_m * 1e6
             )
         }
         Stop::Time(t) => format!("at {t:.4e} s"),
         Stop::Closed { travel_m } => format!(
-            "closed after {:.2} um of travel, at the latest at {latest:.4e} s",
+            "closed after {:.2} um of travel, at {latest:.4e} s at the latest",
             travel_m * 1e6
         ),
     }
@@ -223,17 +220,16 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
     ]
     .concat();
     out += &forecast.notes;
-    let excess = forecast.excess();
-    out.extend(
-        excess.map(|excess| line("refused", format!("unless --yes-really is given: {excess}"))),
-    );
+    if let Some(excess) = forecast.excess() {
+        out += &line("refused", format!("unless --yes-really is given: {excess}"));
+    }
     out
 }
 
 /// Number of steps, and run time.
 fn steps(setup: &Setup, forecast: &Forecast) -> [String; 2] {
     if !setup.scene.programme.is_empty() {
-        let not = "not forecast for a press programme: tens to hundreds (docs/results/press.md), more with surface tension";
+        let not = "no forecast for a press programme: tens to hundreds (docs/results/press.md), more with surface tension";
         return [not.into(), format!("{:.1e} s a step", forecast.step_s)];
     }
     let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);

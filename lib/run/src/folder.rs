@@ -119,7 +119,7 @@ impl RunFolder {
             Ok(()) => None,
             Err(TryLockError::WouldBlock) => {
                 return Err(RunFailure::Usage(format!(
-                    "another run is writing into '{}': wait for its end or name another folder",
+                    "another run is writing to '{}': wait for its end or name another folder",
                     path.display()
                 )));
             }
@@ -139,7 +139,7 @@ impl RunFolder {
     pub(crate) fn warning(&self) -> Option<String> {
         let error = self.unlocked.as_ref()?;
         Some(format!(
-            "'{}' cannot be locked ({error}): see to it that no other run writes into it",
+            "'{}' cannot be locked ({error}): make sure that no other run writes to it",
             self.path.display()
         ))
     }

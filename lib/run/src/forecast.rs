@@ -93,7 +93,7 @@ mod tests {
         if cfg!(target_os = "linux") {
             for bytes in [1e18, f64::NAN] {
                 let said = forecast(1.0, bytes).excess().expect("a refusal");
-                assert!(said.contains("GB of memory, and this process"), "{said}");
+                assert!(said.contains("GB of memory, but this process"), "{said}");
             }
         }
     }

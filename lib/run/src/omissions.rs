@@ -8,7 +8,8 @@ use crate::resolve::Setup;
 /// Name of the remark on air that mirror or periodic sides close off.
 pub(crate) const BEYOND_SIDES: &str = "beyond the sides";
 /// Uncertainty of WP due to such air.
-pub(crate) const UNCERTAIN: &str = "uncertain by its difference from the same run without [air]";
+pub(crate) const UNCERTAIN: &str =
+    "with an error of up to its difference from the same run without [air]";
 
 /// A remark on a run: something it leaves out, or lumens of few cells.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -36,11 +37,11 @@ pub(crate) fn omissions(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Rema
         "adherends are rigid (paper section 2.2)".into(),
     );
     match &case.air {
-        None => add("trapped air", "voids are empty: p = 0, no [air]".into()),
+        None => add("trapped air", "voids are empty (p = 0): no [air]".into()),
         Some(air) if closes_off(air, setup) => add(
             BEYOND_SIDES,
             format!(
-                "the sides of the specimen close off the air in lumens, which drives liquid into the few open ones: WP is {UNCERTAIN}; give leak_time for lumens that continue beyond the sides"
+                "the sides of the specimen trap air in lumens, which diverts liquid into the few open ones: WP is {UNCERTAIN}; give leak_time for lumens that continue beyond the sides"
             ),
         ),
         Some(_) => {}
@@ -72,7 +73,7 @@ pub(crate) fn omissions(case: &Case, setup: &Setup, stages: &Stages) -> Vec<Rema
         add(
             "sound waves",
             format!(
-                "Mach {:.1e}: the step follows the flow, not the sound",
+                "Mach {:.1e}: time steps follow the flow, not the sound",
                 regime.mach
             ),
         );

@@ -216,7 +216,7 @@ impl Request {
         match forecast.excess() {
             Some(excess) if mode.however_long => warn(excess),
             Some(excess) => {
-                return refused(format!("{excess}; --yes-really runs it all the same"));
+                return refused(format!("{excess}; --yes-really runs it anyway"));
             }
             None => {}
         }

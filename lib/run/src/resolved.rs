@@ -103,9 +103,17 @@ fn derived(key: &str, case: &Case, setup: &Setup) -> Option<Option<String>> {
     })
 }
 
-/// A value in SI as TOML; it reads back to the same number.
+/// A value in SI as TOML, in the unit with the fewest digits; it reads back to the same number.
 fn si<D: Dimension>(value: f64) -> String {
-    format!("\"{value:?} {}\"", D::UNITS[0].0)
+    let texts = D::UNITS.iter().filter_map(|(unit, factor)| {
+        let short = units::shortened(value / factor);
+        (short * factor == value).then(|| format!("{short} {unit}"))
+    });
+    let exact = || format!("{value:?} {}", D::UNITS[0].0);
+    format!(
+        "\"{}\"",
+        texts.min_by_key(String::len).unwrap_or_else(exact)
+    )
 }
 
 fn corner(metres: [f64; 3]) -> String {

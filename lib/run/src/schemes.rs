@@ -75,12 +75,12 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, RunFailure> {
     #[rustfmt::skip]
     let stray = [
         (table.tolerance.is_some(), "[integrator] tolerance", ""),
-        (adhesive.cure.is_some(), "[adhesive.cure]", ": explicit steps do not reach the time of cure"),
-        (adhesive.water.is_some(), "[adhesive.water]", ": explicit steps do not reach the time in which wood takes water"),
-        (adhesive.surface_tension.is_some(), "[adhesive] surface_tension", ": explicit steps are too short for liquid to be drawn anywhere"),
+        (adhesive.cure.is_some(), "[adhesive.cure]", ": explicit runs are too short for cure"),
+        (adhesive.water.is_some(), "[adhesive.water]", ": explicit runs are too short for loss of water"),
+        (adhesive.surface_tension.is_some(), "[adhesive] surface_tension", ": explicit runs are too short for capillary flow"),
         (adhesive.dynamic_angle.is_some(), "[adhesive] dynamic_angle", ""),
-        (case.air.is_some(), "[air]", ": the explicit scheme has no pressure in what it leaves empty"),
-        (staged, "[[clamp.stage]]", ": explicit steps are too short for a press"),
+        (case.air.is_some(), "[air]", ": the explicit scheme has no pressure outside the liquid"),
+        (staged, "[[clamp.stage]]", ": explicit runs are too short for a press programme"),
     ];
     refuse_stray("implicit", &stray)?;
     let update = table.velocity_update.unwrap_or_default();
@@ -169,14 +169,14 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
     let mut notes = line(
         "limits",
         format!(
-            "acoustic {:.3e} s, viscous {:.3e} s; the step is {} (Courant number) of the smaller",
+            "acoustic {:.3e} s, viscous {:.3e} s; the step is {} (Courant number) times the smaller",
             plan.acoustic_s, plan.viscous_s, settings.cfl
         ),
     );
     let (cap, largest) = (plan.viscosity_cap, setup.scene.liquid.viscosity.largest());
     if largest > cap {
         let said = format!(
-            "{cap:.3} Pa s, the largest that is stable at this step; the law goes to {largest} Pa s"
+            "{cap:.3} Pa s, the largest that is stable at this step; the law reaches {largest} Pa s"
         );
         notes += &line("viscosity cap", said);
     }
@@ -236,7 +236,7 @@ fn implicit_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
     }
     Forecast {
         dt_s: plan.dt_s,
-        limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),
+        limit: "advective (cfl cell/|v|), shorter where the liquid is faster".into(),
         steps: plan.steps,
         // The step grows as the clamp slows down: the number of steps follows from the travel.
         most_steps: plan.steps,

@@ -198,11 +198,8 @@ impl Summary {
         };
         let closed = self.programme.iter().position(|stage| stage.closed_below);
         let closed = closed.map_or(String::new(), |at| {
-            let kind = self.programme[at].kind;
-            format!(
-                " and closed below its pressure in stage {} ({kind})",
-                at + 1
-            )
+            let (stage, kind) = (at + 1, self.programme[at].kind);
+            format!(" and closed below its pressure in stage {stage} ({kind})")
         });
         let gap = self.gap_m.map_or(String::new(), |g| {
             format!(", gap {:.2} um", g.max(0.0) * 1e6)
@@ -223,8 +220,13 @@ impl Summary {
             0 => String::new(),
             n => format!(" ({n} points left through open sides)"),
         };
+        let sound = if self.verdict.sound {
+            "sound"
+        } else {
+            "not sound"
+        };
         format!(
-            "The run {end}{closed} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
+            "The run {end}{closed} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {sound}.",
             self.steps,
             time(self.time_s, 2),
             pressure(self.final_pressure_pa, 3),
@@ -234,11 +236,6 @@ impl Summary {
             self.invariants.points_in_unreachable_voids,
             self.stepping_wall_s,
             self.particle_steps_per_s / 1e6,
-            if self.verdict.sound {
-                "sound"
-            } else {
-                "not sound"
-            },
         )
     }
 }

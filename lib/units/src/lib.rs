@@ -20,3 +20,9 @@ pub use dimension::{
     Pressure, ShearRate, Speed, Spread, SurfaceTension, Time, Viscosity, unit,
 };
 pub use quantity::{ParseError, Quantity, positive, si};
+
+/// A number to twelve digits, without those that rounding in a unit left: 0.7 for 700 cP in Pa s, a double of 0.7000000000000001.
+#[must_use]
+pub fn shortened(number: f64) -> f64 {
+    format!("{number:.11e}").parse().unwrap_or(number)
+}

@@ -276,7 +276,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn coarse_places_are_in_the_order_of_numbers() {
+    fn coarse_histogram_bins_are_in_numerical_order() {
         let numbers = [
             -1e30, -2.0, -1.0, -1e-30, 0.0, 1e-30, 0.5, 1.0, 70_000.0, 1e38,
         ];

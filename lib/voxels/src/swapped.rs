@@ -28,7 +28,7 @@ impl Segmented {
         let across = (0..3).find(|&axis| self.holds_a_void_bond_line(axis));
         let adhesive = across.map(|axis| {
             format!(
-                "void and adhesive look exchanged: adhesive fills the pores in both outer quarters along {} and void what lies between them, as adhesive in a bond does",
+                "void and adhesive look exchanged: along {} adhesive fills the pores in both outer quarters and void those between, the reverse of a bond",
                 NAMES[axis]
             )
         });
@@ -70,7 +70,7 @@ impl Segmented {
             .max_by_key(|(_, pieces)| pieces.iter().sum::<usize>())?;
         (wood >= LEAST && wood > TIMES * void).then(|| {
             format!(
-                "wood and void look exchanged: in cuts across {} wood is {wood} pieces and void {void}, and cells make it the other way round",
+                "wood and void look exchanged: in cuts normal to {} wood is {wood} pieces and void {void}, the reverse of a cell structure",
                 NAMES[axis]
             )
         })

@@ -76,7 +76,7 @@ impl VoxelSize {
     /// cube keeps their volume.
     ///
     /// # Errors
-    /// A sentence when the voxels are no cubes.
+    /// A sentence when the voxels are not cubes.
     pub fn cube_edge(&self) -> Result<f64, String> {
         let (x, y, z) = self.edges;
         let z = z.unwrap_or(x);

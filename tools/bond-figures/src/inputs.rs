@@ -29,9 +29,7 @@ impl Inputs {
             0 => None,
             1 => Some(spool().map_err(|e| Failure::failed(format!("cannot spool '-': {e}")))?),
             _ => {
-                return Err(Failure::usage(
-                    "'-' can be read once and is given more often",
-                ));
+                return Err(Failure::usage("'-' can be read only once"));
             }
         };
         let placed = files.into_iter().map(|mut file| {

@@ -46,7 +46,7 @@ impl Target {
             Output::Stdout => Some(SVG),
             Output::File(path) => path.extension().and_then(named).map(|(_, render)| *render),
         };
-        let wrong = "is not a picture's name: it must end in .svg, .png or .pdf";
+        let wrong = "is not a picture name: it must end in .svg, .png or .pdf";
         let render = render.ok_or_else(|| format!("{output} {wrong}"))?;
         Ok(Self { output, render })
     }
@@ -67,7 +67,7 @@ pub(crate) fn png(text: &OsStr) -> Result<Output, String> {
     match text == "-" || extension.is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         true => Ok(text.to_owned().into()),
         false => Err(format!(
-            "{} is no name of a PNG: it must end in .png",
+            "{} is not a PNG name: it must end in .png",
             text.display()
         )),
     }
@@ -207,7 +207,7 @@ pub(crate) fn cell(text: &str) -> Result<Extent, String> {
     match cell.si(1.0) > 0.0 {
         true => Ok(cell),
         false => Err(format!(
-            "'{text}' is no edge of a cell: it must be greater than zero"
+            "'{text}' is not a cell size: it must be greater than zero"
         )),
     }
 }

@@ -80,7 +80,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     let hashed = there.map(|path| InputRecord::of_file(path, path.display().to_string()));
     let hashed = hashed.collect::<Result<_, _>>()?;
     let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), hashed);
-    report.command = record.command.join(" ");
+    report.command = particle_file::command_line(&record.command);
     let files = record.inputs.iter();
     report.inputs = files
         .map(|file| [file.path.clone(), file.xxh3.clone()])

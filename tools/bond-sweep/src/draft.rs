@@ -73,7 +73,7 @@ impl Draft {
             let request = Request::read(&self.case, Some(bond), &texts(changes))?;
             match request.excess()?.filter(|_| !however_long) {
                 Some(excess) => Err(RunFailure::Usage(format!(
-                    "{excess}; --yes-really plans it all the same"
+                    "{excess}; --yes-really plans it anyway"
                 ))),
                 None => Ok(()),
             }
@@ -144,7 +144,7 @@ fn bond_of(table: &Table, row: usize) -> Result<(Job, Option<Recipe>), Failure> 
         .collect();
     if let Some((column, cell)) = table.cell(row, &ColumnKind::Particles) {
         if let Some((i, ..)) = specimen.first() {
-            let what = "the row names a bond file in column particles, which is no synthetic specimen; leave one of them empty";
+            let what = "the row has a bond file in column particles as well as a synthetic specimen; leave one of them empty";
             return Err(table.wrong_cell(row, *i, what));
         }
         let path = table.beside(cell);

@@ -57,7 +57,7 @@ impl Plan {
             ))
         })?;
         let plan: Self = serde_json::from_str(&text).map_err(|e| {
-            Failure::data(format!("'{}' is no plan of a sweep: {e}", place.display()))
+            Failure::data(format!("'{}' is not a sweep plan: {e}", place.display()))
         })?;
         match plan.version == VERSION {
             true => Ok(plan),
@@ -73,7 +73,7 @@ impl Plan {
     pub fn job(&self, run: &str) -> Result<&Job, Failure> {
         self.runs.get(run).ok_or_else(|| {
             Failure::usage(format!(
-                "there is no run '{run}' in this sweep: its names stand in {RUNS}"
+                "there is no run '{run}' in this sweep: {RUNS} lists its runs"
             ))
         })
     }
@@ -178,7 +178,7 @@ fn refuse_foreign(folder: &Path) -> Result<(), Failure> {
     match foreign {
         None => Ok(()),
         Some(name) => Err(Failure::usage(format!(
-            "'{}' is not of a sweep and would be replaced: name another folder",
+            "'{}' does not belong to a sweep and would be replaced: name another folder",
             folder.join(name).display()
         ))),
     }

@@ -29,7 +29,7 @@ pub fn run(folder: &Path, name: &str) -> Result<(), Failure> {
         && specimen::content(&bond)? != *planned
     {
         return Err(Failure::usage(format!(
-            "'{}' is not what it was when the sweep was planned: plan again",
+            "'{}' has changed since the sweep was planned: plan again",
             bond.display()
         )));
     }

@@ -98,7 +98,7 @@ pub fn text(table: csv::Writer<Vec<u8>>, written: csv::Result<()>) -> Result<Vec
 /// The row of a run; none where it has not ended. A file that is no row is damaged (exit 3).
 pub fn read(place: &Path) -> Result<Option<csv::StringRecord>, Failure> {
     let broken = |why: &dyn std::fmt::Display| {
-        Failure::data(format!("'{}' is no row of a sweep: {why}", place.display()))
+        Failure::data(format!("'{}' is not a sweep row: {why}", place.display()))
     };
     let text = match fs::read(place) {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
@@ -107,7 +107,7 @@ pub fn read(place: &Path) -> Result<Option<csv::StringRecord>, Failure> {
     let mut table = csv::Reader::from_reader(text.as_slice());
     let header = table.headers().map_err(|e| broken(&e))?;
     if header != COLUMNS.as_slice() {
-        return Err(broken(&"its columns are others"));
+        return Err(broken(&"its columns are different"));
     }
     match table.records().next() {
         Some(row) => row.map(Some).map_err(|e| broken(&e)),

@@ -82,7 +82,7 @@ impl Table {
             }
             if record.len() != header.len() {
                 return Err(table.wrong(format_args!(
-                    "row {} has {} cells and the header {}: a cell that holds a comma stands in quotes",
+                    "row {} has {} cells and the header {}: put a cell with a comma in quotes",
                     table.rows.len() + 1,
                     record.len(),
                     header.len()
@@ -143,7 +143,7 @@ fn kind_of(name: &str) -> Result<ColumnKind, String> {
         let known = options.into_iter().find(|known| *known == option);
         return known.map(ColumnKind::Specimen).ok_or_else(|| {
             let options = options.join(", ");
-            format!("'{name}' is no column of a sweep; of the specimen there are {options}")
+            format!("'{name}' is not a column of a sweep; of the specimen there are {options}")
         });
     }
     let key = name.contains('.') && !name.contains(|c: char| c.is_whitespace() || "=;".contains(c));
@@ -152,7 +152,7 @@ fn kind_of(name: &str) -> Result<ColumnKind, String> {
             true => " (columns are separated by commas)",
             false => "",
         };
-        format!("'{name}' is no column of a sweep{hint}: accepted are case, particles, specimen.seed and the like, and keys of the case such as adhesive.viscosity")
+        format!("'{name}' is not a column of a sweep{hint}: accepted are case, particles, specimen.seed and the like, and keys of the case such as adhesive.viscosity")
     })
 }
 

@@ -96,7 +96,7 @@ impl Wood {
         }
         if self.bottom.is_some() {
             return Err(Failure::usage(
-                "two pieces of wood hold no adhesive: give it by --slab, or by --spread and --density",
+                "two pieces of wood have no adhesive: give its amount with --slab, or with --spread and --density",
             ));
         }
         if self.turn_top.is_some() || self.crop_to_fit || self.drop_islands {

@@ -28,7 +28,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let slab_m = arguments.wood.slab_m()?;
     if paths.iter().filter(|path| **path == Path::new("-")).count() > 1 {
         return Err(Failure::usage(
-            "both pieces are to come from standard input, which gives one: name a file for the other",
+            "only one piece can come from standard input: name a file for the other",
         ));
     }
     let files = (paths.iter())
@@ -121,7 +121,7 @@ fn wood(
     for file in files {
         if placed(file, "adhesive")?.bits.count() > 0 {
             return Err(Failure::usage(format!(
-                "'{}' holds adhesive: --slab and --spread are for wood alone, and a bonded specimen keeps its own volume",
+                "'{}' holds adhesive: --slab and --spread are for wood without adhesive; the adhesive volume of a bonded specimen is kept",
                 file.name()
             )));
         }
@@ -134,13 +134,13 @@ fn wood(
         },
         [whole] => {
             let cut = plane.ok_or_else(|| {
-                Failure::usage("wood alone has no bond line to be found: say where to cut it by --plane LEN, or give a second piece by --bottom and --top")
+                Failure::usage("wood without adhesive has no bond line: give the cut with --plane LEN, or two pieces with --bottom and --top")
             })?;
             Pieces::Cut(placed(whole, "wood")?, cut)
         }
         _ => {
             return Err(Failure::usage(
-                "--plane cuts one piece of wood; --bottom and --top are glued where their faces are found",
+                "--plane cuts one piece of wood; the faces of --bottom and --top are found by the tool",
             ));
         }
     };

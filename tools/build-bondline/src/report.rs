@@ -14,7 +14,7 @@ pub(crate) fn report(bond: &Bond, normal: Axis) {
     plane(bond, normal);
     if bond.trimmed != [0; 3] {
         cli::note(format!(
-            "left out {:?} layers at the high x, y, z sides: the bond is a whole number of cells wide",
+            "cut off {:?} layers at the high x, y and z sides, so that the bond is a whole number of cells wide",
             bond.trimmed
         ));
     }
@@ -25,7 +25,7 @@ pub(crate) fn report(bond: &Bond, normal: Axis) {
     ));
     let out = bond.adhesive_out as f64;
     cli::note(format!(
-        "adhesive: in {:.0} voxels = {:.1} um3, out {out} voxels = {:.1} um3, rounding {:+.3} %",
+        "adhesive: {:.0} voxels = {:.1} um3 in the specimen, {out} voxels = {:.1} um3 in the slab, rounding {:+.3} %",
         bond.adhesive_in,
         um3(bond.adhesive_in),
         um3(out),
@@ -61,7 +61,7 @@ fn plane(bond: &Bond, normal: Axis) {
     }
     let how = match bond.found {
         Some(line) => format!(
-            "found midway between the bond surfaces at {} and {} voxels; adhesive most outweighs wood in layer {}, by {:.1} % of the area",
+            "found midway between the bond surfaces at {} and {} voxels; the excess of adhesive over wood is largest in layer {}, {:.1} % of the area",
             line.bottom,
             line.top,
             line.seed,
@@ -70,7 +70,7 @@ fn plane(bond: &Bond, normal: Axis) {
         None => "as given, at the nearest face between voxels".into(),
     };
     cli::note(format!(
-        "bond plane: {normal} = {:.3} um ({how}); it parts {} touching pairs of wood voxels, {share:.2} % of the bond area",
+        "bond plane: {normal} = {:.3} um ({how}); it separates {} pairs of touching wood voxels, {share:.2} % of the bond area",
         um(bond.plane_m),
         bond.severed,
     ));
@@ -90,7 +90,7 @@ fn piece(name: &str, face: &Face, voxel_m: f64) {
     ));
     if face.islands > 0 {
         cli::warn(format!(
-            "{} loose wood voxels before the {name} face hold the pieces apart; --drop-islands leaves them out",
+            "{} loose wood voxels in front of the {name} face keep the pieces apart; --drop-islands removes them",
             face.islands
         ));
     }
@@ -117,7 +117,7 @@ pub(crate) fn tilt(specimen: &Specimen, bond: &Bond, normal: Axis) {
     match rise < WORTH_LEVELLING * bond.effective_penetration_m() {
         true => cli::note(said),
         false => cli::warn(format!(
-            "{said}: the wood is cut level all the same; xct2particles --level {normal} turns the specimen"
+            "{said}, but the wood is cut level; xct2particles --level {normal} turns the specimen"
         )),
     }
 }

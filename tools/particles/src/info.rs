@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use cli::Failure;
-use particle_file::{Block, Element, Kind, ParticleFile, Provenance, Section};
+use particle_file::{Block, Element, Kind, ParticleFile, Provenance, Section, command_line};
 
 /// What a file holds and how it was made, one fact per line.
 pub fn describe(file: &ParticleFile) -> Result<String, Failure> {
@@ -25,7 +25,7 @@ fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
         .collect();
     writeln!(out, "box         {} um", box_um.join(", "))?;
     if matches!(header.kind, Kind::State | Kind::Checkpoint) {
-        let (time_s, step) = (header.time_s, header.step);
+        let (time_s, step) = (units::shortened(header.time_s), header.step);
         writeln!(out, "time        {time_s:e} s, step {step}")?;
     }
     for block in &header.blocks {
@@ -75,12 +75,10 @@ fn write_array(out: &mut String, section: &Section) -> std::fmt::Result {
 }
 
 fn write_provenance(out: &mut String, by: &Provenance) -> std::fmt::Result {
-    let command = by.command.join(" ");
+    let command = command_line(&by.command);
     writeln!(out, "made by     {} {}: {command}", by.tool, by.version)?;
-    for (path, hash) in &by.inputs {
-        writeln!(out, "  from      {path} (xxh3 {hash:016x})")?;
-    }
-    Ok(())
+    (by.inputs.iter())
+        .try_for_each(|(path, hash)| writeln!(out, "  from      {path} (xxh3 {hash:016x})"))
 }
 
 /// A length in micrometres without the digits that only rounding made.

@@ -86,7 +86,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             "a specimen of {nx} x {ny} x {nz} voxels needs {short}; a smaller --size is needed"
         );
         if !arguments.yes_really {
-            let really = "--yes-really goes on all the same";
+            let really = "--yes-really continues anyway";
             return Err(Failure::usage(format!("{said}; {really}")));
         }
         cli::warn(said);

@@ -41,20 +41,20 @@ pub fn carry_on(
     );
     if !same_bond(&state, &fine) {
         return Err(Failure::usage(format!(
-            "'{}' and '{}' are of different bonds: --finer takes the same run in smaller cells",
+            "'{}' and '{}' are of different bonds: --finer needs the same run with smaller cells",
             input.name, finer.name
         )));
     }
     if let Some(table) = other_table([&input.name, &finer.name], cells) {
         return Err(Failure::usage(format!(
-            "the cases of '{}' and '{}' differ in [{table}]: --finer takes the same run in smaller cells",
+            "the cases of '{}' and '{}' differ in [{table}]: --finer needs the same run with smaller cells",
             input.name, finer.name
         )));
     }
     let times = [input.time_s(), finer.time_s()];
     if (times[0] - times[1]).abs() > 1e-6 * times[0] && !closed_alike(&state, &fine) {
         return Err(Failure::usage(format!(
-            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and their clamps have different travels: --finer needs the same state of the same run in smaller cells",
+            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and their clamps have different travels: --finer needs the same state of the same run with smaller cells",
             input.name, times[0], finer.name, times[1]
         )));
     }

@@ -25,7 +25,7 @@ fn phases(stack: &Stack, arguments: &Arguments) -> Result<Phases, Failure> {
             let proposal = histogram.propose(*auto == GreyLevels::AutoWood);
             let proposal = proposal.map_err(|why| Failure::usage(format!("{name}: {why}")))?;
             let grey = proposal.grey;
-            cli::note(format_args!("{name}: grey values taken as {grey}"));
+            cli::note(format_args!("{name}: grey values: {grey}"));
             proposal.left_out.iter().for_each(cli::warn);
             Phases::Grey(grey)
         }
@@ -111,7 +111,7 @@ impl Input {
         let number = text.and_then(|text| text.parse().ok());
         number.filter(|n: &f64| n.is_finite()).ok_or_else(|| {
             Failure::usage(format!(
-                "'{}' does not say its {name}: a state of a run is needed",
+                "'{}' has no {name}: a state of a run is needed",
                 self.name
             ))
         })

@@ -95,11 +95,11 @@ fn fit_together(arguments: &Arguments, files: usize) -> Result<(), Failure> {
         arguments.map.is_some() || arguments.profile.is_some() && !arguments.series;
     let on_stdout = outputs(arguments).filter(|o| **o == Output::Stdout);
     let wrong = if files > 1 && arguments.finer.is_some() {
-        "--finer belongs to one file, but several are given: run wp-metrics on each"
+        "--finer needs a single file: run wp-metrics on each"
     } else if files > 1 && map_or_profile {
-        "--map and --profile describe one file, but several are given: run wp-metrics on each"
+        "--map and --profile need a single file: run wp-metrics on each"
     } else if files < 2 && arguments.summary.is_some() {
-        "--summary is of several files, and one is given: name them, or a folder of particle files"
+        "--summary needs several files: name them, or a folder of particle files"
     } else if on_stdout.count() > 1 {
         "two tables on standard output cannot be told apart: give all but one of -o, --summary, --map and --profile a file"
     } else {
@@ -200,13 +200,13 @@ impl Recorder {
         let of_other_kind = self.specimens.iter().find(|(_, other, _)| *other != kind);
         if let Some((other, other_kind, _)) = of_other_kind {
             return Err(Failure::usage(format!(
-                "'{name}' is a {kind} and '{other}' a {other_kind}: --summary is of files of one kind"
+                "'{name}' is a {kind} and '{other}' a {other_kind}: --summary needs files of one kind"
             )));
         }
         let copied = self.specimens.iter().find(|(.., other)| *other == content);
         if let Some((other, ..)) = copied {
             return Err(Failure::usage(format!(
-                "'{name}' holds the same as '{other}': --summary takes each specimen once"
+                "'{name}' holds the same as '{other}': --summary accepts each specimen once"
             )));
         }
         self.specimens.push((name.clone(), kind, content));

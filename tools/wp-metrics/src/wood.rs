@@ -80,7 +80,7 @@ pub fn tell_pores(
         });
         progress.finish();
         if sizes.is_empty() {
-            return Err(refused(&input, "it has no pores between wood"));
+            return Err(refused(&input, "it has no pores in the wood"));
         }
         files.push((cli::cell(&input.name).into_owned(), sizes));
     }
@@ -92,7 +92,7 @@ fn whole<'a>(input: &Input, state: &State<'a>) -> Result<PlacedVoxels<'a>, Failu
         Wood::Whole(wood) => Ok(wood),
         Wood::Parted { .. } => Err(refused(
             input,
-            "its adherends are parted; permeability and pores are of one specimen or stack",
+            "its adherends are separated; permeability and pores need a specimen or stack",
         )),
         Wood::None => Err(refused(input, "it has no wood")),
     }
@@ -104,7 +104,7 @@ fn fits(input: &Input, wood: &PlacedVoxels, bytes_a_voxel: u64, what: &str) -> R
     match machine::shortage(need) {
         None => Ok(()),
         Some(short) => Err(Failure::data(format!(
-            "'{}': {what} {x} x {y} x {z} voxels takes {short}; cut a part out (xct2particles --crop)",
+            "'{}': {what} {x} x {y} x {z} voxels takes {short}; use a part of it (xct2particles --crop)",
             input.name
         ))),
     }

@@ -73,7 +73,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     if let Some(preview) = preview {
         draw(&draft, &stack, &phases, &arguments, preview)?;
     }
-    let cure = "look by --preview, or exchange the two in --labels or --grey";
+    let cure = "check with --preview, or exchange the two in --labels or --grey";
     let swapped = segmented.swapped().map(|said| format!("{said}; {cure}"));
     looks_wrong(swapped, arguments.yes_really)?;
     output
@@ -139,7 +139,7 @@ fn looks_wrong(said: Option<String>, really: bool) -> Result<(), Failure> {
             Ok(())
         }
         Some(said) => Err(Failure::usage(format!(
-            "{said}; go on all the same by --yes-really"
+            "{said}; --yes-really continues anyway"
         ))),
     }
 }
@@ -156,7 +156,7 @@ fn draw(
     let by_grey = matches!(phases, Phases::Grey(_));
     let turned = by_grey && arguments.level.is_some();
     if turned {
-        cli::note("preview     without grey values, which --level does not turn");
+        cli::note("preview     without grey values: --level turns only labels");
     }
     let crop = kept(stack, arguments);
     let greys = (by_grey && !turned).then(|| stack.middle_cuts(&crop));

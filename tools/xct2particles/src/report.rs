@@ -32,7 +32,9 @@ pub(crate) fn stack(stack: &Stack, crop: &Crop, edge: &VoxelEdge) {
     let near = |metres: f64| (metres / edge.metres - 1.0).abs() <= EDGE_TOLERANCE;
     if stated.from() == edge.from {
         if !stated.states_spacing() {
-            cli::note("            the distance of pages is not stated: cubes are assumed");
+            cli::note(
+                "            the distance between pages is not given: cubic voxels are assumed",
+            );
         }
     } else if !stated.cube_edge().is_ok_and(near) {
         cli::warn(format_args!(
@@ -60,7 +62,7 @@ pub(crate) fn proposal(proposed: &Result<Proposal, String>) {
 pub(crate) fn despeckled(found: &Despeckled, most: u16) {
     let [void, wood, adhesive] = found.voxels;
     cli::note(format_args!(
-        "despeckled  {} pieces of at most {most} voxels took the phase around them: {adhesive} voxels of adhesive, {wood} of wood, {void} of void",
+        "despeckled  {} pieces of at most {most} voxels changed to the phase around them: {adhesive} voxels of adhesive, {wood} of wood, {void} of void",
         found.pieces
     ));
 }
@@ -71,7 +73,7 @@ pub(crate) fn noise(specimen: &Segmented) {
     let [pieces, voxels] = specimen.small_pieces(SPECK);
     if pieces > FEW + voxels / 10_000 {
         cli::warn(format_args!(
-            "{pieces} pieces of at most {SPECK} voxels look like noise: --despeckle {SPECK} gives them the phase around them"
+            "{pieces} pieces of at most {SPECK} voxels look like noise: --despeckle {SPECK} changes them to the phase around them"
         ));
     }
 }
@@ -80,7 +82,7 @@ pub(crate) fn noise(specimen: &Segmented) {
 pub(crate) fn level(turned: &LevelledSpecimen) {
     let [x, y, z] = turned.wood.dims();
     cli::note(format_args!(
-        "level       the bond plane was {}; turned back, {x} x {y} x {z} voxels are left",
+        "level       the bond plane was {}; after levelling, {x} x {y} x {z} voxels are left",
         turned.tilt
     ));
 }
@@ -110,7 +112,7 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
         }
     }
     if adhesive > wood {
-        cli::warn("more voxels are adhesive than wood: are their labels the right way round?");
+        cli::warn("more voxels are adhesive than wood: are the labels exchanged?");
     }
     let um = edge * 1e6;
     let columns = total / dims[normal.index()];

@@ -175,7 +175,7 @@ fn slabs_and_specimens_that_do_not_fit_are_refused() {
         tolerance: 0.01,
         ..opening(Axis::Y)
     };
-    stack.refuses(&strict, "rounded to 6 its volume changes by -4.10 %");
+    stack.refuses(&strict, "rounding to 6 changes its volume by -4.10 %");
     // The opening of 11 voxels leaves 1 voxel to make for the slab of 12.
     let gap = |voxels: f64| Opening {
         gap_m: Some(voxels * VOXEL),

@@ -57,7 +57,7 @@ fn the_limit_is_that_of_the_runs_unless_one_is_given() {
 
 /// The line of a run at twice the pressure must reach twice as high: measured on the pixels.
 #[test]
-fn lines_stand_at_the_height_of_their_data() {
+fn curves_are_drawn_at_the_height_of_their_values() {
     let folder = Folder::new();
     let highest = |peak: f64| {
         let runs = [("a", peak), ("b", 2e6)];
@@ -124,7 +124,9 @@ fn the_band_of_a_finer_run_reaches_from_the_line_beyond_the_extrapolation() {
     let mut fine = folder.labelled("fine", flat(1.2e6, 2.0));
     let draw = |fine: &Labelled| closing(from_ref(&run), from_ref(fine), None, "", Page::default());
     let unknown = draw(&fine).unwrap_err();
-    assert!(matches!(unknown, Error::Request(said) if said.contains("the label of no run")));
+    assert!(
+        matches!(unknown, Error::Request(said) if said.contains("that of no run or of several"))
+    );
     fine.label = "a".into();
     let (width, drawn) = pixels(&draw(&fine).unwrap());
     let column = |row: usize| drawn[row * width + width / 2 + 30];

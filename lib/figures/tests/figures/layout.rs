@@ -155,7 +155,7 @@ fn of_slices() {
 }
 
 #[test]
-fn of_setups_and_tables() {
+fn setups_and_tables_have_no_overlapping_text() {
     let folder = Folder::new();
     let bond = folder.labelled("bond", layers(Kind::Bond));
     let specimen = folder.labelled("specimen", layers(Kind::Specimen));
@@ -202,7 +202,7 @@ fn of_views() {
 }
 
 #[test]
-fn of_plots_and_clouds() {
+fn plots_and_clouds_have_no_overlapping_text() {
     check("plot", |names, page| {
         let plot = Plot::new(LONG, WORD, LONG).logarithmic([true, false]);
         let curve = vec![[1e-3, -1e6], [1e9, 2e6]];

@@ -47,7 +47,7 @@ fn table_2_has_ours_the_slab_and_the_papers_numbers_labelled() {
     let table = Table2::read(&cases).unwrap();
     let rows = written(|out| table.write_csv(out));
     for (row, begins) in rows[1..].iter().zip([
-        "pf,experiment,mid,8.5000,8.6000,8.5500,6.6970,Experimental,68.5700,31.6200,56.4100,\"paper: the paper's specimen, not this one\"",
+        "pf,experiment,mid,8.5000,8.6000,8.5500,6.6970,Experimental,68.5700,31.6200,56.4100,\"paper: the paper's own specimen, not this one\"",
         "pf,implicit,mid,3.0000,4.0000,3.5000,6.6970,,,,,",
         "pva-pf,xpic,mid,1.0000,2.0000,1.5000,6.6970,XPIC(5),25.2100,23.3200,24.3500,",
     ]) {
@@ -118,7 +118,7 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         );
     }
     let shown = table.to_text();
-    let released = "pf let go: WP after its release, 7.00 um in total before it";
+    let released = "pf let go: WP is after the release, in total 7.00 um before it";
     for told in [released, "7.15 +- 0.25", "sqrt(bottom^2 + top^2)/2"] {
         assert!(shown.contains(told), "{shown}");
     }
@@ -187,7 +187,7 @@ fn a_table_of_a_run_that_was_made_again_is_refused() {
     };
     assert!(read(hash).is_ok());
     let said = read(hash ^ 1).unwrap_err().to_string();
-    let expected = "as it is now: run wp-metrics again";
+    let expected = "does not belong to the present";
     assert!(said.contains(expected), "{said}");
 }
 

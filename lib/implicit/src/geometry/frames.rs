@@ -23,8 +23,8 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
             for a in [0, 2].into_iter().filter(|&a| v[a] != 0.0) {
                 if !body.blocks.iter().all(|block| through(block, a)) {
                     return Err(format!(
-                        "body '{}' moves along {} and ends within the domain: the implicit scheme takes walls that move \
-                         along themselves from side to side",
+                        "body '{}' moves along {} and ends within the domain: with the implicit scheme, a wall that moves \
+                         in its own plane must reach from side to side",
                         body.name,
                         ["x", "y", "z"][a]
                     ));
@@ -52,8 +52,8 @@ pub(super) fn check_motions(scene: &Scene, frames: &Frames) -> Result<(), String
             };
             if beside && !(along && block.dims()[1] == 1) {
                 return Err(format!(
-                    "body '{}' stands beside the path of '{}' and is not uniform along it: the implicit scheme takes \
-                     walls there that reach unchanged to the side of the domain",
+                    "body '{}' stands beside the path of '{}' and is not uniform along it: with the implicit scheme, \
+                     walls there must continue unchanged to the side of the domain",
                     body.name, scene.bodies[moving.body].name
                 ));
             }
@@ -73,14 +73,14 @@ fn moving(scene: &Scene) -> Result<Option<Moving>, String> {
             Motion::Constant([0.0, y, 0.0]) => y < 0.0,
             Motion::Constant(_) => {
                 return Err(format!(
-                    "body '{}' moves along y and aside: the implicit scheme moves bodies along y, or walls along themselves",
+                    "body '{}' moves along y and sideways: the implicit scheme moves bodies along y, or walls within their own plane",
                     body.name
                 ));
             }
         };
         if found.replace(Moving { body: index, down }).is_some() {
             return Err(format!(
-                "two bodies move along y, '{}' the second of them: the implicit scheme takes one",
+                "two bodies move along y, the second of them '{}': the implicit scheme accepts one",
                 body.name
             ));
         }
@@ -133,11 +133,11 @@ impl Frames {
             // Rounded down, so that the suggested travel does not exceed the gap.
             let most = (1e10 * (gap[1] - gap[0]) + 1e-3).floor() / 1e4;
             let help = match most > 0.0 {
-                true => format!("; --set clamp.travel=\"{most} um\" goes so far"),
+                true => format!("; use --set clamp.travel=\"{most} um\""),
                 false => String::new(),
             };
             return Err(format!(
-                "the clamp is to travel {:.4} um, but the bodies meet after {most:.4} um: the implicit scheme closes one gap{help}",
+                "the clamp's travel is {:.4} um, but the bodies meet after {most:.4} um{help}",
                 1e6 * travel_m
             ));
         }

@@ -59,7 +59,7 @@ fn checked(scene: &Scene) -> Result<(Frames, usize), String> {
     let most = usize::from(MIRROR - OPEN) - 1;
     if scene.bodies.len() > most {
         return Err(format!(
-            "the scene has {} rigid bodies; the implicit scheme takes at most {most}",
+            "the scene has {} rigid bodies; the implicit scheme accepts at most {most}",
             scene.bodies.len()
         ));
     }
@@ -72,8 +72,8 @@ fn checked(scene: &Scene) -> Result<(Frames, usize), String> {
     let edge = scene.grid.cell_m / k as f64;
     if let Some((body, a)) = off_lattice(scene, &frames, edge) {
         return Err(format!(
-            "the faces of body '{}' lie off the lattice along {}: the implicit scheme takes cells of one or two \
-             voxels, or a whole number of cells a voxel, and boxes on the faces of cells or half way between them",
+            "the faces of body '{}' lie off the grid along {}: with the implicit scheme a cell must be one or two \
+             voxels wide, or a voxel a whole number of cells, and boxes must end on cell faces or half way between them",
             body.name,
             ["x", "y", "z"][a]
         ));

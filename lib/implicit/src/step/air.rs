@@ -166,11 +166,11 @@ impl Implicit {
             Some(_) => vec![
                 ("pockets of air", air.pockets),
                 (
-                    "millionths of the air closed off that lie under liquid",
+                    "millionths of the enclosed air that are covered by liquid",
                     air.covered,
                 ),
                 (
-                    "steps whose air did not come to its pressure",
+                    "steps in which the air pressure did not converge",
                     air.unsettled,
                 ),
             ],

@@ -17,9 +17,11 @@ impl Implicit {
     /// The failure after the last attempt at a step was too long still; `dries` if because of the loss of water.
     pub(super) fn no_acceptable_length(&self, dries: bool) -> Failure {
         let why = match dries {
-            true => "the liquid dries too fast for any: a smaller uptake, a larger diffusivity or a flatter \
+            true => {
+                "the liquid dries too fast: a smaller uptake, a larger diffusivity or a flatter \
                      viscosity_by_solids is needed"
-                .to_owned(),
+                    .to_owned()
+            }
             false => format!(
                 "the liquid's speed grows as the step gets shorter, {:.3e} m/s in the last attempt: a wall may push \
                  liquid that is enclosed on all sides",
@@ -33,8 +35,8 @@ impl Implicit {
     pub(super) fn unsolved(&self, error: &SolveError) -> String {
         match error {
             SolveError::NotFinite { .. } => format!(
-                "{error}; speeds, gravity or pressures of the case or of the step before are beyond all bounds, and a \
-                 smaller integrator.cfl may help where the case is not to blame"
+                "{error}; a speed, gravity or pressure of the case or of the step before is far too large; if the case is \
+                 correct, a smaller integrator.cfl may help"
             ),
             SolveError::Unsolved { error, cause } => {
                 format!("{error}: {}", advice(*cause, self.setup.lattice.k))
@@ -52,19 +54,19 @@ fn advice(cause: Cause, k: usize) -> String {
              max_pressure, an outlet, less travel, a lower bulk_modulus or an earlier end is needed"
         ),
         Cause::Stiff { ratio } => format!(
-            "viscous stress is {ratio:.0e} times what compresses the liquid in a step, eta/(K dt): a lower viscosity, a \
+            "viscous stress is {ratio:.0e} times the stress that compresses the liquid in a step, eta/(K dt): a lower viscosity, a \
              higher bulk_modulus or a slower motion is needed"
         ),
         Cause::Inertial { ratio } => format!(
             "inertia, rho h^2/(eta dt), is {ratio:.0e} times the viscous stress in a cell: a higher viscosity, an earlier \
-             end where nothing flows any more or scheme = \"explicit\" is needed"
+             end if nothing flows any more, or scheme = \"explicit\" is needed"
         ),
-        Cause::Unknown if k == 2 => "where liquid gets out through openings of one voxel alone, grid.cell = \"1 voxel\" is \
-                                     needed; a smaller integrator.cfl makes the steps and their systems easier"
+        Cause::Unknown if k == 2 => "if liquid leaves only through openings of one voxel, grid.cell = \"1 voxel\" is \
+                                     needed; a smaller integrator.cfl makes the linear systems easier"
             .into(),
         Cause::Unknown => {
-            "a smaller integrator.cfl makes the steps and their systems easier, a larger \
-                           integrator.tolerance asks for less"
+            "a smaller integrator.cfl makes the linear systems easier, a larger \
+                           integrator.tolerance relaxes them"
                 .into()
         }
     }

@@ -139,7 +139,7 @@ impl Implicit {
         let limit = self.state.drive.bounded_by_stage(limit, self.state.travel);
         if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
         {
-            return Err(self.failure("the bodies have met and cannot go on"));
+            return Err(self.failure("the bodies have met and cannot move on"));
         }
         let begun = Instant::now();
         self.update_mesh();
@@ -149,8 +149,7 @@ impl Implicit {
         for attempt in 0..MAX_ATTEMPTS {
             let dt = self.step_length(limit).min(longest);
             if !(dt > 0.0 && dt.is_finite()) {
-                return Err(self
-                    .failure("nothing moves and no time is left: there is no time step to take"));
+                return Err(self.failure("nothing moves, so no time step can be chosen"));
             }
             let solved = self
                 .solve(dt, limit, longest, &mut start)

@@ -200,7 +200,7 @@ impl Scheme for Implicit {
                 self.state.drive.violations.0,
             ));
         }
-        counts.push(("steps that did not settle", self.state.unsettled));
+        counts.push(("steps that did not converge", self.state.unsettled));
         counts
     }
 
@@ -220,15 +220,15 @@ impl Scheme for Implicit {
         let mut objections: Vec<String> = [
             (
                 self.state.unsettled,
-                "the passes did not settle (viscosity, compression or torn liquid): a lower speed of the clamp or a smaller integrator.cfl may help",
+                "the iterations for viscosity, compression or cavitation did not converge: a lower closing_speed or a smaller integrator.cfl may help",
             ),
             (
                 self.state.air.unsettled,
-                "the iteration did not find the pressure of the enclosed air",
+                "the iteration for the pressure of the enclosed air did not converge",
             ),
             (
                 above,
-                "enclosed liquid pressed the clamp's body with more than its max_pressure: a smaller integrator.cfl or a lower speed of the clamp may help",
+                "enclosed liquid pressed on the clamp's body with more than max_pressure: a smaller integrator.cfl or a lower closing_speed may help",
             ),
         ]
         .into_iter()

@@ -42,12 +42,12 @@ fn what_the_grid_cannot_hold_is_refused() {
             Some("ends within the domain"),
         ),
         (DOWN, shaft, DOWN, Some("two bodies move along y")),
-        (SLANTING, shaft, STILL, Some("along y and aside")),
+        (SLANTING, shaft, STILL, Some("along y and sideways")),
         (
             DOWN,
             ([7.2, 1.0], [8.0, 8.0]),
             STILL,
-            Some("off the lattice along x"),
+            Some("off the grid along x"),
         ),
     ] {
         let bodies = vec![
@@ -91,6 +91,6 @@ fn a_way_beyond_the_first_ridge_is_refused_with_the_way_to_it() {
     };
     let said = |travel_m| Implicit::new(&scene(travel_m), Settings::default()).err();
     assert_eq!(said(3.0), None);
-    let most = "one gap; --set clamp.travel=\"3000000 um\" goes so far";
+    let most = "; use --set clamp.travel=\"3000000 um\"";
     assert!(said(5.0).is_some_and(|said| said.ends_with(most)));
 }

@@ -94,7 +94,7 @@ mod tests {
 
     /// Sources that alternate: the residual falls from 0.069 to 0.032 of them in the last step but one.
     #[test]
-    fn a_twentieth_of_the_error_is_left_for_later() {
+    fn the_potential_reduces_the_residual_to_a_twentieth() {
         let sources: Vec<f64> = (0..24).map(|c| [1.0, -1.0][c % 2]).collect();
         let mut cells = row(&sources);
         potential(&mut cells);

@@ -222,7 +222,7 @@ mod tests {
         type Change = fn(&mut CureLaw);
         let cases: [(Change, &str); 6] = [
             (|law| law.temperature.reverse(), "must increase"),
-            (|law| law.reference = 20.0, "20 K is no temperature"),
+            (|law| law.reference = 20.0, "20 K is not accepted"),
             (|law| law.course = table(&[(0.0, 1.0)]), "two points"),
             (
                 |law| law.course = table(&[(0.0, 1.0), (1.0, 0.0)]),

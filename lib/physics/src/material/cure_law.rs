@@ -82,7 +82,7 @@ impl CureLaw {
         let [low, high] = TEMPERATURES;
         if let Some(odd) = kelvins.into_iter().find(|t| !(low..=high).contains(t)) {
             return Err(format!(
-                "{odd} K is no temperature of a press: {low} to {high} K is accepted"
+                "{odd} K is not accepted: {low} to {high} K is needed"
             ));
         }
         match &self.course {

@@ -97,7 +97,7 @@ impl Law {
             return Ok(());
         }
         Err(format!(
-            "{name}: it holds from {from} 1/s to {to} 1/s: the second rate must be the larger"
+            "{name}: its rates are {from} and {to} 1/s, but the second must be larger"
         ))
     }
 }
@@ -249,7 +249,7 @@ pub(crate) mod tests {
             (power, 1.6, "index"),
             (carreau, 0.0, "index"),
             (yielding, f64::NAN, "index"),
-            (power, 0.5, "second rate"),
+            (power, 0.5, "second must be larger"),
             (cross, 0.5, "infinite rate"),
             (carreau, 0.5, "infinite rate"),
         ] {

@@ -65,14 +65,14 @@ impl Water {
         let limit = law.limit.unwrap_or(last.0);
         if !(limit > law.solids && limit <= last.0 * (1.0 + ROUNDING)) {
             return Err(format!(
-                "limit = {limit} is not accepted: it must lie above solids ({}) and not beyond the last row of viscosity_by_solids ({}), where no viscosity is known",
+                "limit = {limit} is not accepted: it must be above solids ({}) and not beyond the last row of viscosity_by_solids ({})",
                 law.solids, last.0
             ));
         }
         let water = (1.0 - law.solids) * density / WATER_DENSITY;
         if water >= 1.0 {
             return Err(format!(
-                "solids = {} at a density of {density} kg/m3 leaves no room for the solids: of a litre, {water:.3} l would be water",
+                "solids = {} at a density of {density} kg/m3 leaves no room for the solids: one litre would have {water:.3} l of water",
                 law.solids
             ));
         }

@@ -129,11 +129,11 @@ pub(crate) fn where_last(folder: &RunFolder) -> String {
     let path = folder.path_of(CHECKPOINT);
     if path.exists() {
         format!(
-            "; --resume goes on from the last good checkpoint, {}, at another integrator.cfl if wanted",
+            "; --resume continues from the last checkpoint, {}, if needed with another integrator.cfl",
             path.display()
         )
     } else {
-        "; it came before the first checkpoint".into()
+        "; no checkpoint was written before".into()
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) fn read(
     let file = ParticleFile::open(&path)?;
     let header = file.header();
     if header.kind != Kind::Checkpoint {
-        return Err(bad("it is no checkpoint".into()));
+        return Err(bad("it is not a checkpoint".into()));
     }
     if header.attribute(IDENTITY) != Some(&origin.identity) {
         let another = "it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew";
@@ -87,8 +87,8 @@ fn clock(header: &Header, times: &[f64], last: &[f64]) -> Result<Clock, String> 
     clock.last_step.lost = attribute(header, LOST)?;
     clock.last_step.iterations = attribute(header, ITERATIONS)?;
     let (own, of_step) = numbers(&mut clock);
-    fill(own, times).ok_or("it has no whole clock")?;
-    fill(of_step, last).ok_or("it has no whole last step")?;
+    fill(own, times).ok_or("its clock is incomplete")?;
+    fill(of_step, last).ok_or("its last step is incomplete")?;
     Ok(clock)
 }
 
@@ -108,5 +108,5 @@ fn array(file: &ParticleFile, name: &str) -> Result<Array, String> {
 
 fn attribute<T: std::str::FromStr>(header: &Header, name: &str) -> Result<T, String> {
     let found = header.attribute(name).and_then(|text| text.parse().ok());
-    found.ok_or_else(|| format!("its attribute '{name}' is missing or no number"))
+    found.ok_or_else(|| format!("its attribute '{name}' is missing or not a number"))
 }

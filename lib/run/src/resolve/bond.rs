@@ -107,7 +107,7 @@ fn checked(file: &ParticleFile) -> Result<(Axis, f64), RunFailure> {
     let header = file.header();
     if header.kind != Kind::Bond {
         return refused(format!(
-            "'{}' is no bond file but holds a {}; make one with build-bondline",
+            "'{}' is not a bond file but a {}; make one with build-bondline",
             file.name(),
             header.kind
         ));
@@ -116,7 +116,7 @@ fn checked(file: &ParticleFile) -> Result<(Axis, f64), RunFailure> {
     let corrupt = |said: String| RunFailure::Data(format!("{}: {said}", file.name()));
     box_of_its_blocks(header).map_err(corrupt)?;
     let normal = Axis::from_index(header.normal.into())
-        .ok_or_else(|| corrupt("its bond normal is no axis".into()))?;
+        .ok_or_else(|| corrupt("its bond normal is not an axis".into()))?;
     let gap_m = header
         .attribute("gap_m")
         .and_then(|text| text.parse::<f64>().ok())

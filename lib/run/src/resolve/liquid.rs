@@ -88,7 +88,7 @@ fn viscosity(adhesive: &Adhesive) -> Result<Viscosity, RunFailure> {
     match (given.next(), given.next()) {
         (Some(one), None) => one,
         (Some(_), Some(_)) => refused(format!(
-            "[adhesive] has more than one of {KEYS}: only one can hold"
+            "[adhesive] has more than one of {KEYS}: give only one"
         )),
         (None, _) => refused(format!("[adhesive] needs viscosity or another of {KEYS}")),
     }
@@ -112,7 +112,7 @@ fn cure(table: &CureTable) -> Result<Cure, RunFailure> {
         }
     };
     if table.activation_energy.is_some() && course.is_none() {
-        return refused("[adhesive.cure] activation_energy needs gel_time or factor beside it");
+        return refused("[adhesive.cure] activation_energy needs gel_time or factor");
     }
     let heats = table.activation_energy.is_some() || table.flow_activation_energy.is_some();
     let reference = match (&table.temperature, table.reference_temperature) {
@@ -158,12 +158,12 @@ pub(super) fn check_walls(liquid: &Liquid, bodies: &[RigidBody]) -> Result<(), R
     };
     let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
     if names.is_empty() {
-        return refused("[adhesive.water] has no wall to go into: the scene has no rigid body");
+        return refused("[adhesive.water] needs a wall, but the scene has no rigid body");
     }
     match water.stray(&names) {
         None => Ok(()),
         Some(name) => refused(format!(
-            "[adhesive.water] walls has '{name}', which no rigid body is named: there is {}",
+            "[adhesive.water] walls: there is no rigid body '{name}', only {}",
             names.join(", ")
         )),
     }

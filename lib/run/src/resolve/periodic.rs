@@ -18,7 +18,7 @@ pub(super) fn check_whole_cells(
         let cells = (max[a] - min[a]) / grid.cell_m;
         if boundary[a] == Boundary::Periodic && (cells - grid.cells[a] as f64).abs() > ROUNDING {
             return refused(format!(
-                "the domain is {cells:.3} cells long along {name}, whose sides are periodic: a whole number is needed, another [grid] domain or cell"
+                "the domain is {cells:.3} cells long along {name}, whose sides are periodic: a whole number is needed, choose another [grid] domain or cell"
             ));
         }
     }

@@ -50,7 +50,7 @@ fn check_clamp_clearance(
         };
         if let Some(other) = collisions::may_meet_clamp(scene, limit_s, most_m, slack) {
             return refused(format!(
-                "'{}' of given velocity may meet the clamp's body, whose way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
+                "'{}' of given velocity may meet the clamp's body, whose motion depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
                 other.name
             ));
         }
@@ -109,7 +109,7 @@ fn check_speed(scene: &Scene, liquid: &Amount) -> Result<(), RunFailure> {
         _ => "the velocity of a rigid body",
     };
     refused(format!(
-        "{who} is {speed:.4e} m/s, above the liquid's speed of sound sqrt(K/rho) = {sound:.4e} m/s: such a liquid is shocked, not pressed; a lower speed, a higher bulk_modulus or a lower density is needed"
+        "{who} is {speed:.4e} m/s, above the liquid's speed of sound sqrt(K/rho) = {sound:.4e} m/s, which causes shock waves; a lower speed, a higher bulk_modulus or a lower density is needed"
     ))
 }
 
@@ -124,7 +124,7 @@ fn check_weight(scene: &Scene) -> Result<(), RunFailure> {
         return Ok(());
     }
     refused(format!(
-        "[gravity] acceleration makes a domain full of liquid weigh {pressure:.3e} Pa on its floor, more than the {most:.3e} Pa ({MOST_PRESSURE} of the bulk modulus) to which the pressure law holds: a smaller acceleration is needed"
+        "[gravity] acceleration gives a domain full of liquid a pressure of {pressure:.3e} Pa at its floor, above {most:.3e} Pa ({MOST_PRESSURE} of the bulk modulus), the limit of the pressure law: a smaller acceleration is needed"
     ))
 }
 
@@ -152,7 +152,7 @@ fn check_clamp_reaches_liquid(
         return Ok(());
     }
     refused(format!(
-        "the clamp's body does not come near the adhesive within its travel of {:.4} um: nothing would be pressed",
+        "the clamp's body does not reach the adhesive within its travel of {:.4} um: nothing would be pressed",
         1e6 * travel_m
     ))
 }

@@ -27,7 +27,7 @@ pub(super) fn programme(
     ];
     if let Some((_, key)) = stray.iter().find(|(given, _)| *given) {
         return refused(format!(
-            "[clamp] {key} is for a clamp without [[clamp.stage]]: its stages say speed, pressure and time"
+            "[clamp] {key} is for a clamp without [[clamp.stage]]: stages have their own speed, pressure and time"
         ));
     }
     let Some(room_m) = travel_m else {
@@ -67,7 +67,7 @@ fn resolved(
     stray(table)?;
     let speed = (table.speed.map(|speed| speed.si()))
         .or(before.map(|before| before.speed))
-        .ok_or("the first stage needs a speed, which the others take over, such as \"1 mm/s\"")?;
+        .ok_or("the first stage needs a speed such as \"1 mm/s\", which later stages keep")?;
     let travel_m = table.travel.map(|travel| travel.si());
     let gone = before.and_then(|before| before.travel_m).unwrap_or(0.0);
     if let Some(travel) = travel_m.filter(|travel| *travel <= gone || *travel > room_m) {
@@ -81,7 +81,7 @@ fn resolved(
     let time_s = match (table.time, table.kind) {
         (Some(time), _) => time.si(),
         (None, Press::Approach) => APPROACH * room_m / speed,
-        (None, _) => return Err("it needs a time, its longest duration, such as \"5 min\"".into()),
+        (None, _) => return Err("it needs a time (its longest duration) such as \"5 min\"".into()),
     };
     Ok(PressStage {
         kind: table.kind,
@@ -98,10 +98,10 @@ fn resolved(
 fn stray(table: &StageTable) -> Result<(), String> {
     let kind = table.kind;
     if table.contact && kind != Press::Approach {
-        return Err("contact ends an approach only".into());
+        return Err("only an approach can end with contact".into());
     }
     if table.slower.is_some() && !matches!(kind, Press::Hold | Press::Release) {
-        return Err("slower ends a hold or a release only".into());
+        return Err("only a hold or a release can end with slower".into());
     }
     if table.pressure.is_some() && kind == Press::Release {
         return Err("a release has no pressure".into());
@@ -117,9 +117,9 @@ fn pressure(table: &StageTable, before: Option<&PressStage>) -> Result<Option<f6
     let set = before.filter(|before| before.kind != Press::Approach);
     match (table.kind, given) {
         (Press::Approach, given) => Ok(given),
-        (Press::Ramp, None) => Err("it needs a pressure to go to".into()),
+        (Press::Ramp, None) => Err("it needs a pressure".into()),
         (Press::Ramp, Some(to)) if set.is_some() && kept == Some(to) => Err(format!(
-            "the pressure is {} already: a hold keeps it",
+            "the pressure is {} already: use a hold",
             summary::pressure(to, 4)
         )),
         (Press::Hold, Some(at)) if set.is_some() && kept != Some(at) => Err(format!(
@@ -129,8 +129,10 @@ fn pressure(table: &StageTable, before: Option<&PressStage>) -> Result<Option<f6
         )),
         (Press::Hold, None) => (kept.filter(|kept| *kept > 0.0))
             .map(Some)
-            .ok_or_else(|| "it needs a pressure: the stage before ends at none".into()),
-        (Press::Release, _) if kept.is_none() => Err("the stage before ends at no pressure".into()),
+            .ok_or_else(|| "it needs a pressure: the stage before ends without one".into()),
+        (Press::Release, _) if kept.is_none() => {
+            Err("the stage before ends without a pressure".into())
+        }
         (Press::Release, _) => Ok(Some(0.0)),
         (_, given) => Ok(given),
     }

@@ -36,7 +36,7 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
                 };
                 if let Some((other, _)) = filled.iter().find(|(_, b)| overlap(b, &(min, max))) {
                     return Err(wrong(format!(
-                        "it overlaps number {}, and a place holds liquid once",
+                        "it overlaps number {}, but adhesive bodies must not overlap",
                         other + 1
                     )));
                 }

@@ -59,12 +59,12 @@ pub(crate) fn check_state(
     let most = compressed(scene);
     let pressure = scene.liquid.tait.pressure(change);
     let range = format!(
-        "beyond {:.3e} Pa ({MOST_PRESSURE} of the bulk modulus), to which the pressure law holds",
+        "above {:.3e} Pa ({MOST_PRESSURE} of the bulk modulus), the limit of the pressure law",
         MOST_PRESSURE * scene.liquid.tait.bulk_modulus
     );
     if change < most {
         return Err(Failure(format!(
-            "the liquid is compressed by {:.1} % on average, {pressure:.3e} Pa and {range}: a body presses liquid that cannot get away; {}, a way out or less travel is needed",
+            "the liquid is compressed by {:.1} % on average; its pressure, {pressure:.3e} Pa, is {range}: a body presses liquid that cannot escape; {}, an outlet or less travel is needed",
             -100.0 * change,
             match scene.clamp.and_then(|clamp| clamp.max_pressure) {
                 Some(_) => "a lower max_pressure",
@@ -75,7 +75,7 @@ pub(crate) fn check_state(
     // With a cavitation pressure, cavities are intended.
     if change > -most && scene.liquid.cavitation_pressure.is_none() {
         return Err(Failure(format!(
-            "the liquid is {:.1} % larger than at rest on average, a tension {range}: it is torn apart; a cavitation_pressure limits the tension it carries",
+            "the liquid is {:.1} % larger than at rest on average, and its tension is {range}: it is torn apart; a cavitation_pressure would limit its tension",
             100.0 * change
         )));
     }
@@ -92,7 +92,7 @@ fn finite(numbers: &[(&str, f64)]) -> Result<(), Failure> {
     match numbers.iter().find(|(_, number)| !number.is_finite()) {
         None => Ok(()),
         Some((name, number)) => Err(Failure(format!(
-            "the {name} is {}: the state is no longer one of liquid; another integrator.cfl may help, and --explain shows which numbers of the case are extreme",
+            "the {name} is {}, which is unphysical; another integrator.cfl may help, and --explain shows which values of the case are extreme",
             if number.is_nan() {
                 "not a number"
             } else {

@@ -38,7 +38,7 @@ pub(crate) fn judge(
     let (left, begun) = (liquid.position.len() as u64, setup.liquid.points);
     if follows && left + lost != begun {
         reasons.push(format!(
-            "of {begun} material points {left} remain and {lost} left the domain"
+            "of {begun} material points, {left} remain and {lost} left the domain"
         ));
     }
     if left == 0 {
@@ -62,7 +62,7 @@ pub(crate) fn judge(
     }
     if found.crowded > MOST_CROWDED {
         reasons.push(format!(
-            "{:.1} % of the liquid lies where there is no room for it: beyond one and a half times the volume of blocks of two cells a side",
+            "there is no room for it where {:.1} % of the liquid lies: more than one and a half times the volume of blocks with edges of two cells",
             100.0 * found.crowded
         ));
     }
@@ -83,7 +83,7 @@ pub(crate) fn judge(
     };
     if lost == 0 && off > MOST_UNEXPLAINED {
         reasons.push(format!(
-            "the liquid's volume is {:+.2} % off what its pressures explain",
+            "the volume of the liquid differs by {:+.2} % from that expected from its pressures",
             100.0 * unexplained
         ));
     }

@@ -63,7 +63,7 @@ impl Verdict {
     pub fn objection(&self) -> Option<String> {
         (!self.sound).then(|| {
             format!(
-                "the results are not sound (kept, and marked so in summary.json): {}",
+                "the results are not sound (kept, but marked in summary.json): {}",
                 self.reasons.join("; ")
             )
         })
@@ -75,7 +75,7 @@ fn faster_than_sound(scene: &Scene, speed: f64) -> Option<String> {
     let sound = scene.liquid.sound_speed();
     (speed > sound).then(|| {
         format!(
-            "liquid moves at {speed:.3e} m/s, above its speed of sound sqrt(K/rho) = {sound:.3e} m/s, which no pressing gives it"
+            "liquid moves at {speed:.3e} m/s, above its speed of sound sqrt(K/rho) = {sound:.3e} m/s, which pressing cannot cause"
         )
     })
 }

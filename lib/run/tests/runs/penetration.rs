@@ -180,8 +180,9 @@ fn what_a_press_came_to_is_told_of_before_its_release() {
     let end: f64 = last(&bench, "wp_total_um").parse().unwrap();
     println!("{said}");
     assert!((end / held - 1.0).abs() > 0.1, "{held} {end}");
-    let wp =
-        format!("WP {end:.2} um ({held:.2} um before the release; uncertain by its difference");
+    let wp = format!(
+        "WP {end:.2} um ({held:.2} um before the release; with an error of up to its difference"
+    );
     assert!(said.contains(&wp), "{said}");
 }
 

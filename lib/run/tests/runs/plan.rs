@@ -102,7 +102,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
         "sides x open, y symmetry, z symmetry",
         "clamp 2 m/s, at most 2.5000 MPa",
         // Twice the time at full speed.
-        "end closed after 3.00 um of travel, at the latest at 3.0000e-6 s",
+        "end closed after 3.00 um of travel, at 3.0000e-6 s at the latest",
         // cell / (c + v) and rho cell^2 / (8 eta), half of it by the Courant number.
         "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the step is 0.5 (Courant number)",
         "time step 1.0000e-9 s, set by viscous",
@@ -137,7 +137,7 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "grid 10 x 10 x 3 cells of 2.9000 um, 3D",
         "lumen of 17.4 um 6.0 cells across",
         "measured with 6 cells across that lumen",
-        "both with the default Courant number",
+        "with the default Courant number",
     ];
     says(&[], &coarser, &lines);
     // Boxes on cell faces, with cells of 17.4/4 um.
@@ -145,7 +145,7 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "grid.cell=4 um",
         "grid.domain.max=[\"20 um\", \"32 um\", \"8 um\"]",
     ];
-    let wp = "WP about 1.0 % (a small bond line), about 1.5 % (two sizes of cells, the worst of the bonds of make)";
+    let wp = "WP about 1.0 % (a small bond line), about 1.5 % (from two cell sizes, worst bond of the quick specimens)";
     says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);
     assert!(!default.contains("with the default"), "{default}");
@@ -168,7 +168,7 @@ fn departures_from_the_paper_are_named() {
         "pressure from the mean J of each cell, not the paper's",
         "density projection after every 0.04 cell of motion, not the paper's",
         "contact separation 0.8 cell, not the shape function's own",
-        "both with the default contact separation, points per direction",
+        "with the default contact separation, points per direction",
     ];
     says(&[], &changes, &lines);
 }
@@ -200,7 +200,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     leaves_out(&bench, &free, &[&drop[..], &of_update].concat());
     let of_implicit = [
         "PID no pressure limit",
-        "shear rate not known between states",
+        "shear rate computed only for written states",
     ];
     let implicit = [free[0], free[1], "integrator.scheme=implicit"];
     leaves_out(&bench, &implicit, &[&drop[..], &of_implicit].concat());
@@ -229,7 +229,7 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     let [soon, late] = [leaks("1 ns"), leaks("1000 s")];
     let side = |z| format!("boundary={{ x = \"open\", z = \"{z}\" }}");
     let [open, mirror] = [side("open"), side("symmetry")];
-    let closed = "beyond the sides the sides of the specimen close off the air";
+    let closed = "beyond the sides the sides of the specimen trap air";
     for (changes, doubted) in [
         (["boundary={ z = \"periodic\" }", air], true),
         ([open.as_str(), air], false),
@@ -272,7 +272,7 @@ fn walls_bodies_and_ends_of_every_kind() {
     ];
     says(&[one_wall, free, (low, &velocity)], &[], &lines);
     says(&[], &["clamp.stop=0.4 us"], &["end at 4.0000e-7 s"]);
-    let limited = "end closed after 3.00 um of travel, at the latest at 2.0000e-6 s";
+    let limited = "end closed after 3.00 um of travel, at 2.0000e-6 s at the latest";
     says(&[], &["clamp.time_limit=2 us"], &[limited]);
     let unlimited = [
         "clamp 2 m/s, no pressure limit",

@@ -61,7 +61,7 @@ fn an_implicit_case_with_its_defaults_is_the_same_run() {
         "# shape: not used",
         "# pid.ki: not used",
         "stop = \"closed\"\n",
-        "time_limit = \"8e-6 s\" # default",
+        "time_limit = \"8 us\" # default",
         "cfl = 1.0 # default",
         "tolerance = 0.001 # default",
     ];
@@ -75,7 +75,7 @@ fn a_free_drop_with_its_defaults_is_the_same_run() {
     let text = runs_again(&Bench::with(case));
     let lines = [
         "domain.min = [\"1e-7 m\", \"0.0 m\", \"0.0 m\"] # default",
-        "history_every = \"1.0000000000000001e-11 s\" # default",
+        "history_every = \"0.01 ns\" # default",
         "# [clamp]: not given",
         "x = \"periodic\"\n",
     ];

@@ -27,7 +27,7 @@ type Series = (&'static str, &'static [&'static str], Way);
 
 const SERIES: [Series; 6] = [
     ("new run", &["--resume"], Way::New),
-    ("run told to stop half way", &["--resume"], Way::Stopped),
+    ("run stopped half way", &["--resume"], Way::Stopped),
     (
         "run continued from half way",
         &["--resume"],
@@ -38,9 +38,9 @@ const SERIES: [Series; 6] = [
         &["--resume"],
         Way::Continued(1.0),
     ),
-    ("run in place of another", &["--overwrite"], Way::Replacing),
+    ("run replacing another", &["--overwrite"], Way::Replacing),
     (
-        "run in place of another, continued",
+        "run replacing another, continued",
         &["--resume", "--overwrite"],
         Way::Replacing,
     ),

@@ -34,7 +34,7 @@ pub fn rows(stride: usize) -> Result<Vec<Row>> {
             }
             place.ends_like(&whole, &more)
         };
-        let (series, fault) = ("disk full within the last row", "short write");
+        let (series, fault) = ("disk full in the last row", "short write");
         Ok(Row::new(series, scheme, fault, &limits, trial))
     };
     Scheme::ALL.into_iter().map(of_scheme).collect()

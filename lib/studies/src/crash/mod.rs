@@ -21,7 +21,7 @@ pub struct Row {
     /// What went wrong at each point.
     fault: &'static str,
     trials: usize,
-    /// Those that did not end as they must, each in a sentence.
+    /// Those that were not correct, each in a sentence.
     pub wrong: Vec<String>,
 }
 
@@ -42,7 +42,7 @@ impl Row {
         let (scheme, trials) = (scheme.name(), trials.len());
         let right = trials - wrong.len();
         let first = (wrong.first()).map_or(String::new(), |said| format!("; first: {said}"));
-        println!("{series:<44} {scheme:<9} {fault:<12} {right} of {trials} as they must{first}");
+        println!("{series:<44} {scheme:<9} {fault:<12} {right} of {trials} correct{first}");
         Self {
             series,
             scheme,
@@ -65,13 +65,13 @@ pub fn run(study: &Study) -> Result<bool> {
     if full_disk::available() {
         rows.extend(full_disk::rows(1)?);
     } else {
-        left_out.push("the full disk, as `prlimit` is not installed");
+        left_out.push("the full disk, because `prlimit` is not installed");
     }
     if faults::available() {
         rows.extend(campaign::rows(1)?);
         rows.extend(campaign::interrupted(CHAINS)?);
     } else {
-        left_out.push("kills and failing calls, as `strace` is not installed or may not trace");
+        left_out.push("kills and failing calls, because `strace` is not installed or has no permission to trace");
     }
     report::write(study, &rows, &left_out)?;
     Ok(left_out.is_empty() && rows.iter().all(|row| row.wrong.is_empty()))

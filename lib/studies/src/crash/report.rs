@@ -10,13 +10,8 @@ use crate::study::{Study, filled, table};
 pub(super) fn write(study: &Study, rows: &[Row], left_out: &[&str]) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let [trials, wrong] = [row.trials, row.wrong.len()].map(|count| count.to_string());
-        vec![
-            row.series.into(),
-            row.scheme.into(),
-            row.fault.into(),
-            trials,
-            wrong,
-        ]
+        let words = [row.series, row.scheme, row.fault, &trials, &wrong];
+        words.map(String::from).to_vec()
     });
     study.write_csv("crash.csv", "series,scheme,fault,trials,wrong", fields)?;
     study.write("crash.md", page(rows, study.origin(), left_out))
@@ -28,7 +23,7 @@ fn page(rows: &[Row], origin: &str, left_out: &[&str]) -> String {
         let (series, scheme, fault) = (row.series, row.scheme, row.fault);
         format!("| {series} | {scheme} | {fault} | {trials} | {right} |")
     };
-    let heads = "| series | scheme | fault | trials | as they must be |";
+    let heads = "| series | scheme | fault | trials | correct |";
     let trials: usize = rows.iter().map(|row| row.trials).sum();
     let wrong: usize = rows.iter().map(|row| row.wrong.len()).sum();
     let values = [

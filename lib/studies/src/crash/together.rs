@@ -53,7 +53,7 @@ pub fn meanwhile(rounds: usize) -> Result<Row> {
     let begun = Instant::now();
     while run.rows() < 3 {
         if begun.elapsed() > Duration::from_secs(60) {
-            return Err("the first run did not begin".into());
+            return Err("the first run did not start".into());
         }
         sleep(Duration::from_millis(2));
     }
@@ -66,7 +66,7 @@ pub fn meanwhile(rounds: usize) -> Result<Row> {
         &["--overwrite", "-o", &absolute],
     ];
     let rounds: Vec<usize> = (0..rounds).collect();
-    let series = "second run while the first is on";
+    let series = "second run during the first";
     let row = Row::new(series, SCHEME, "second run", &rounds, |round| {
         let way = ways[round % ways.len()];
         let output = ended(&mut second(&place, way))?;

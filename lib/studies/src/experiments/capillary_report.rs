@@ -44,7 +44,7 @@ pub(super) fn write(study: &Study, all: &[Rise]) -> Result<String> {
 /// Heights over time: fits with the range of their k, runs, and the law with a constant angle.
 fn plot(all: &[Rise]) -> Plot {
     let mut plot = Plot::new(
-        "Rise of glycerol: fits to others' measurements (bars: range of their k), mpm-run with one k for all, law with a constant angle",
+        "Rise of glycerol: fits to published measurements (bars: range of k), mpm-run with one k, law with a constant angle",
         "time (s)",
         "height (mm)",
     )

@@ -22,7 +22,7 @@ pub fn run(study: &Study) -> Result<bool> {
     let rises = capillary::run(study)?;
     let wood = wood::run(study)?;
     let press = press::run(study)?;
-    let mut page = String::from("# Evidence from outside\n\n");
+    let mut page = String::from("# Comparison with published experiments\n\n");
     page += &study.head((predictions.iter().map(|p| p.cpu_s)).chain(rises.iter().map(|r| r.cpu_s)));
     page.push('\n');
     if !predictions.is_empty() {

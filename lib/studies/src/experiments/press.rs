@@ -186,7 +186,7 @@ fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
         let wood = &piece.name;
         format!("| {wood} | {below:.3}, {above:.3} | {low:.1}, {high:.1} | {ended} |")
     };
-    let heads = "| wood | lumens below, above | opened (um) | WP bottom / top / total (um) | most pressure (MPa) | closed (um) | CPU s |";
+    let heads = "| wood | lumens below, above | opened (um) | WP bottom / top / total (um) | highest pressure (MPa) | closed (um) | CPU s |";
     let mut means = String::new();
     for name in ["real", "synthetic"].into_iter().skip(usize::from(!real)) {
         let own = (pieces.iter().zip(done)).filter(|(piece, _)| piece.name.starts_with(name));
@@ -195,7 +195,7 @@ fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
         let (wp, peak, way) = (mean(|p| p.wp[2]), 1e-6 * mean(|p| p.peak), mean(|p| p.way));
         let _ = writeln!(
             means,
-            "Mean of what ended, {name}: WP {wp:.2} um, {peak:.2} MPa at most, closed by {way:.2} um."
+            "Mean of the completed runs, {name}: WP {wp:.2} um, highest pressure {peak:.2} MPa, closed by {way:.2} um."
         );
     }
     if real {
@@ -213,6 +213,6 @@ fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
     let page = filled(include_str!("press.txt"), &values);
     match real {
         true => page,
-        false => page + "Real spruce is left out: ../shared is not here.\n",
+        false => page + "Real spruce is omitted: its data in ../shared were not found.\n",
     }
 }

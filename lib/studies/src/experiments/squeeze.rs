@@ -205,7 +205,7 @@ mod tests {
 
     /// Long after the start R^8 goes with F V^2/eta, whatever the first radius was.
     #[test]
-    fn inputs_count_by_their_powers() {
+    fn input_deviations_are_weighted_by_their_exponents() {
         let by = experiments().unwrap()[0].input_deviation(0.125);
         let parts: [f64; 3] = [0.125 * 0.099 / 2.819, 0.25 * 2.22 / 20.41, 0.125 * 0.067];
         let expected = parts.into_iter().fold(0.0, f64::hypot);

@@ -89,7 +89,7 @@ pub(super) fn write(study: &Study, all: &[Prediction]) -> Result<String> {
 /// Measured radii with bars and their predictions with bands.
 fn plot(first: &[&Prediction], liquid: &str) -> Plot {
     let title = format!(
-        "Squeeze flow of {liquid}: ten repeats (bars: deviation), prediction (bands: deviation by the inputs)"
+        "Squeeze flow of {liquid}: ten repeats (bars: standard deviation), prediction (bands: uncertainty of the inputs)"
     );
     let mut plot = Plot::new(&title, "time (s)", "radius (mm)").decades();
     for p in first.iter().filter(|p| p.experiment.liquid.name == liquid) {
@@ -123,7 +123,7 @@ fn section(all: &[Prediction]) -> String {
             format!("| {cells} | {what} | {text} |")
         })
     });
-    let groups = "| cells of the first height | points | radii | rms | range |";
+    let groups = "| cells over the initial height | points | radii | rms | range |";
     let first = of(all, CELLS[0]);
     let line = |p: &&Prediction| {
         let text = Errors::of(&[p], |_, _| true).text();

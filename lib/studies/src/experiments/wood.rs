@@ -114,7 +114,7 @@ fn permeability(study: &Study, piece: &Piece) -> Result<String> {
 }
 
 fn permeabilities(rows: Vec<String>, tomogram: bool) -> String {
-    let heads = "| piece | porosity | permeability (m2) | error | Poiseuille (m2) | ratio | s by the clock |";
+    let heads = "| piece | porosity | permeability (m2) | error | Poiseuille (m2) | ratio | wall time (s) |";
     let values = [
         ("size", SIZE[0]),
         ("edge", &EDGE[0].to_string()),
@@ -123,7 +123,7 @@ fn permeabilities(rows: Vec<String>, tomogram: bool) -> String {
             "fiberform",
             match tomogram {
                 true => include_str!("fiberform.txt"),
-                false => "FiberForm is left out: ../shared is not here.",
+                false => "FiberForm is omitted: its volume in ../shared was not found.",
             },
         ),
     ];

@@ -75,7 +75,7 @@ fn page(rows: &[Row], head: &str) -> String {
             courses().map(|c| c.cpu_s).sum::<f64>(),
         ))
     };
-    let heads = "| scene | runs | way, worst | mean | plates, worst | closing time, worst | clamp | points | pressure | CPU s |";
+    let heads = "| scene | runs | travel left, worst | mean | plates, worst | closing time, worst | clamp | points | pressure | CPU s |";
     let open = rows.iter().flat_map(|r| &r.courses);
     let open = open.filter(|c| c.closed_s.is_infinite()).count();
     let values = [

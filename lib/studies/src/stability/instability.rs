@@ -101,7 +101,7 @@ impl Trial {
             return Err(format!("not unstable: {:?}, {said}", output.status).into());
         }
         if fs::read(run.folder.join("checkpoint.mpts")).ok() != Some(before) {
-            return Err("the checkpoint was touched".into());
+            return Err("the checkpoint changed".into());
         }
         let files = sound_files(&run)?;
         let unstable = last_step(&run)?;
@@ -229,7 +229,6 @@ pub(super) fn lines(rows: &[Result<Row>]) -> String {
         }
         Err(said) => format!("| BROKEN: {said} | | | | | | | |"),
     };
-    let heads =
-        "| run | CFL | checkpoint after step | last step | files left | said | then CFL | and it |";
+    let heads = "| run | CFL | checkpoint after step | last step | files left | message | resumed at CFL | result |";
     table(heads, rows.iter().map(line))
 }

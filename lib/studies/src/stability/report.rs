@@ -21,14 +21,8 @@ travel_over_full_speed,J_min,J_max,lost_points,balance_error,sentence,warning";
 pub(super) fn write(study: &Study, rows: &[Row], unstable: &str) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let trial = &row.trial;
-        let (cfl, verdict) = (trial.cfl.to_string(), row.verdict);
-        let head = [
-            trial.varied,
-            &trial.value,
-            &trial.method.label,
-            &cfl,
-            verdict,
-        ];
+        let (method, cfl) = (&trial.method.label, trial.cfl.to_string());
+        let head = [trial.varied, &trial.value, method, &cfl, row.verdict];
         let numbers = [row.part, row.steps, row.cpu_s, row.energy, row.travel];
         let ends = [row.j[0], row.j[1], row.lost, row.balance];
         let said = [row.sentence.clone(), row.warning.clone()];
@@ -45,19 +39,11 @@ pub(super) fn write(study: &Study, rows: &[Row], unstable: &str) -> Result<()> {
 /// A line for the terminal.
 pub(super) fn said(row: &Row) -> String {
     let trial = &row.trial;
+    let (varied, value, method, cfl) = (trial.varied, &trial.value, &trial.method.label, trial.cfl);
+    let (verdict, sentence, [low, high]) = (row.verdict, &row.sentence, row.j);
+    let (energy, balance, cpu_s) = (row.energy, row.balance, row.cpu_s);
     format!(
-        "{:<22} {:<30} {:<9} {:>5} {} {} energy {:.2e} J {:.3} to {:.3} balance {:+.1e} {:.1} s",
-        trial.varied,
-        trial.value,
-        trial.method.label,
-        trial.cfl,
-        row.verdict,
-        row.sentence,
-        row.energy,
-        row.j[0],
-        row.j[1],
-        row.balance,
-        row.cpu_s
+        "{varied:<22} {value:<30} {method:<9} {cfl:>5} {verdict} {sentence} energy {energy:.2e} J {low:.3} to {high:.3} balance {balance:+.1e} {cpu_s:.1} s"
     )
 }
 
@@ -107,7 +93,7 @@ fn not_stable(rows: &[Row]) -> String {
         format!("| {varied} | {value} | {ended} | {methods} | {sentence} |")
     };
     let kinds = distinct(rows.iter().map(|row| kind(row)));
-    let heads = "| varied | value | ended | methods | said by the first |";
+    let heads = "| varied | value | ended | methods | message of the first |";
     table(heads, kinds.into_iter().map(line))
 }
 
@@ -120,7 +106,7 @@ fn closing(rows: &[Row]) -> String {
     let line = |of: (&str, String)| {
         let travel = |label| {
             let own = |row: &&&Row| press(row) == of && row.trial.method.label == label;
-            let found = rows.iter().find(own);
+            let found = rows.iter().find(own).filter(|row| row.travel.is_finite());
             found.map_or(String::new(), |row| format!("{:.3}", row.travel))
         };
         let (travels, (varied, value)) = (methods.map(travel).join(" | "), &of);

@@ -77,9 +77,7 @@ fn page(rows: &[Row], head: &str) -> String {
         ("cheapest", &*cheapest(rows)),
         ("front", &front(rows)),
     ];
-    let mut page = filled(include_str!("page.txt"), &values);
-    failed(&mut page, rows);
-    page
+    filled(include_str!("page.txt"), &values) + &failed(rows)
 }
 
 /// For each accuracy the cheapest setting of the flows that count, from the rows themselves.
@@ -121,15 +119,16 @@ fn front(rows: &[Row]) -> String {
     table(&heads, slits.filter_map(line))
 }
 
-fn failed(out: &mut String, rows: &[Row]) {
-    if rows.iter().any(|r| r.failed.is_some()) {
-        out.push_str("\n## Failed\n\n");
-    }
-    for r in rows {
-        if let Some(said) = &r.failed {
-            let (label, said) = (&r.setting.method.label, said.replace('\n', " "));
-            let _ = writeln!(out, "- {label}, {}: {said}", r.flow.name());
-        }
+fn failed(rows: &[Row]) -> String {
+    let line = |r: &Row| {
+        let said = r.failed.as_ref()?.split("mpm-run: ").last()?;
+        let (label, flow) = (&r.setting.method.label, r.flow.name());
+        Some(format!("- {label}, {flow}: {}\n", said.replace('\n', " ")))
+    };
+    let lines: String = rows.iter().filter_map(line).collect();
+    match lines.is_empty() {
+        true => lines,
+        false => format!("\n## Failed\n\n{lines}"),
     }
 }
 

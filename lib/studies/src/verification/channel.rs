@@ -48,7 +48,7 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
         let worst = worst(off.map(|off| off / fastest)).unwrap_or(f64::NAN);
         Ok(vec![
             mean_against(run, low, exact)?,
-            Measured::absolute("a point over the fastest, worst", worst),
+            Measured::absolute("worst point, over the fastest", worst),
         ])
     })
 }

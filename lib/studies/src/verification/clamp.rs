@@ -36,7 +36,7 @@ pub fn scene(travel: f64) -> Scene {
         ..CaseText::plane(CELL, [right, top])
     };
     let name = format!("clamp-travel{travel}");
-    Scene::new(name, "what the clamp is set to", case, move |run| {
+    Scene::new(name, "settings of the clamp", case, move |run| {
         let [pressure, speed] = run.columns(["pressure_top_Pa", "closing_speed_m_s"])?;
         let [end] = run.ends(["displacement_m"])?;
         let over = (largest(pressure.iter().copied()) / limit - 1.0).max(0.0);

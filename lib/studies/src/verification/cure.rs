@@ -126,9 +126,9 @@ impl Filling {
             let worst = worst(rows.map(|(&t, &s)| filled(s) / exact(from, since, t) - 1.0));
             let worst = worst.unwrap_or(f64::NAN);
             Ok(vec![
-                Measured::relative("L where it has set", filled(came), exact(0.0, 0.0, end)),
+                Measured::relative("L at the end", filled(came), exact(0.0, 0.0, end)),
                 Measured::absolute("L(t) from L = d on, worst", worst),
-                Measured::relative("time at which it ended", end, set),
+                Measured::relative("time at the end", end, set),
             ])
         })
     }

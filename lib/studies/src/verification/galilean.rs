@@ -25,7 +25,7 @@ pub fn scene(law: &str, offset: f64) -> Scene {
     ];
     let case = CaseText {
         title: format!(
-            "Liquid and walls all at {SPEED} m/s, {law}, walls {offset} cell off the nodes.\nAgainst nothing changing."
+            "Liquid and walls, all at {SPEED} m/s, {law}, walls {offset} cell off the nodes.\nReference: no change."
         ),
         contact: match law {
             "partial-slip" => partial_slip("0.01 cell"),

@@ -43,7 +43,7 @@ fn profiles(labels: &[&str], runs: &[Spots]) -> Result<Drawing, figures::Error> 
     let mut plot = Plot::new(
         "Film at 0.5 ms, floor on the nodes",
         "height / thickness",
-        "velocity / largest by Eq. 5",
+        "velocity / largest velocity by Eq. 5",
     );
     for (label, spots) in labels.iter().zip(runs) {
         let places = spots.iter().map(|(at, v)| [at[1], *v]).collect();
@@ -57,8 +57,8 @@ fn profiles(labels: &[&str], runs: &[Spots]) -> Result<Drawing, figures::Error> 
 
 fn points(labels: &[&str], runs: &[Spots]) -> Result<Drawing, figures::Error> {
     let mut clouds = Clouds::new(
-        ["place along the floor / thickness", "height / thickness"],
-        "velocity / largest by Eq. 5",
+        ["distance along the floor / thickness", "height / thickness"],
+        "velocity / largest velocity by Eq. 5",
         [0.0, 1.0],
         0.03,
     );
@@ -95,8 +95,8 @@ fn channel(outcomes: &[Outcome]) -> Option<Plot> {
 fn slit_forces(runs: &[(&str, &Run)]) -> Result<Plot> {
     let mut plot = Plot::new(
         "A piston presses liquid into a slit of 6 cells, walls on the nodes",
-        "filled length over slit width",
-        "piston force over that of one filled width",
+        "filled length / slit width",
+        "piston force / force at one filled width",
     );
     for (label, run) in runs {
         let mut rows = slit::curve(run, 6)?;

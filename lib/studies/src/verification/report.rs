@@ -25,15 +25,8 @@ pub(super) fn write(study: &Study, outcomes: &[Outcome]) -> Result<()> {
 /// The rows of a run in the table.
 fn fields(o: &Outcome, outcomes: &[Outcome]) -> Vec<Vec<String>> {
     let method = &o.method;
-    let set = method.set.join(" ");
-    let head = [
-        &o.scene,
-        method.scheme.name(),
-        &method.label,
-        &set,
-        o.against,
-    ]
-    .map(String::from);
+    let (scheme, label, set) = (method.scheme.name(), &method.label, method.set.join(" "));
+    let head = [&o.scene, scheme, label, &set, o.against].map(String::from);
     let row = |m: &Measured| {
         let order = order(o, m, outcomes).map_or(String::new(), |order| format!("{order:.1}"));
         let numbers = [

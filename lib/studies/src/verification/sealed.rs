@@ -21,7 +21,7 @@ pub fn scene(voxels: u32, offset: f64) -> Scene {
     let liquid = |low, high| Body::liquid(m(low, 0.0), m(high, 1.0));
     let case = CaseText {
         title: format!(
-            "A lumen sealed by walls of {voxels} voxels, {offset} cell off the nodes, under {PRESSURE} Pa.\nAgainst nothing leaking."
+            "A lumen sealed by walls of {voxels} voxels, {offset} cell off the nodes, under {PRESSURE} Pa.\nReference: no leak."
         ),
         clamp: Some(format!(
             "closing_speed = \"0.03 m/s\"\nmax_pressure = \"{PRESSURE} Pa\"\nstop = \"{:.3} us\"\ntravel = \"5.8 um\"\n",

@@ -142,7 +142,7 @@ impl Column {
             let missing = run.summary("water_missing");
             Ok(vec![
                 Measured::relative(
-                    "L where it stops",
+                    "L at the end",
                     largest(course.iter().map(|p| p.1)),
                     exact.farthest(),
                 ),

@@ -252,7 +252,7 @@ mod tests {
 
     /// Length and end as by another program of the same equations; where the column's ends resist does not matter.
     #[test]
-    fn with_it_the_front_stops() {
+    fn with_loss_of_water_the_front_stops() {
         let course = front(0.02).course(1200.0, 40.0);
         assert!(
             (course.farthest() / 3.04 - 1.0).abs() < 0.005,

@@ -30,7 +30,7 @@ fn write(path: &Path, planes: &[usize], description: &str) {
 
 /// A page in each of four files, whose names are in another order than their planes.
 #[test]
-fn a_page_in_each_file() {
+fn ome_planes_of_single_page_files_are_one_volume() {
     let names = ["d", "c", "b", "a"].map(|name| format!("w_{name}1.ome.tif"));
     let text = ome(&[0, 1, 2, 3].map(|z| block(z, 0, &names[z])).concat());
     let folder = tempfile::tempdir().unwrap();
@@ -49,7 +49,7 @@ fn a_page_in_each_file() {
 }
 
 #[test]
-fn a_folder_of_them() {
+fn ome_slices_in_a_folder_are_one_volume() {
     let folder = tempfile::tempdir().unwrap();
     let name = |z: usize| format!("w_Z{z}.ome.tif");
     let text = ome(&[0, 1, 2, 3].map(|z| block(z, 0, &name(z))).concat());

@@ -77,7 +77,7 @@ fn a_dash_is_standard_input_or_the_svg_alone() {
     assert!(record.contains("\"path\": \"-\""), "{record}");
     bench
         .run("map --map - --map - -o m.svg")
-        .refused(2, "can be read once");
+        .refused(2, "can be read only once");
 }
 
 #[test]

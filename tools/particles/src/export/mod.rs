@@ -98,7 +98,7 @@ fn labels_of(file: &ParticleFile) -> Result<LabelVolume<'_>, Failure> {
     // Half a voxel is the rounding to whole ones.
     if missing > 0.005 * worth + 0.5 {
         cli::warn(format!(
-            "{:.1} % of the liquid in '{}' has no voxel: its points lie outside the box, or are squeezed into less room than their volume",
+            "{:.1} % of the liquid in '{}' is missing from the voxels: points lie outside the box or in too little space",
             100.0 * missing / worth,
             file.name()
         ));

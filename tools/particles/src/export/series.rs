@@ -20,7 +20,7 @@ use super::vtk;
 /// be written.
 pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result<(), Failure> {
     let Output::File(pvd) = output else {
-        let what = "a pvd refers to files beside it and cannot go to standard output";
+        let what = "a .pvd file refers to files in its folder, so it cannot go to standard output";
         return Err(Failure::usage(what));
     };
     let folder_name = folder_name(pvd);

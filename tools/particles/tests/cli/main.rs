@@ -4,7 +4,7 @@ mod export;
 #[path = "../../../workbench.rs"]
 mod workbench;
 
-use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, Provenance};
 use workbench::Bench;
 
 const VOXEL: f64 = 1.5e-6;
@@ -26,6 +26,13 @@ fn bench(steps: &[u64]) -> Bench {
     for &step in steps {
         let mut header = Header::new(Kind::State, VOXEL, 1, [0.0; 3], [1.05e-4, 1.5e-5, 4.5e-6]);
         (header.step, header.time_s) = (step, step as f64 * 1e-6);
+        header.provenance.push(Provenance {
+            tool: "mpm-run".into(),
+            command: ["mpm-run", "my case.toml", "--overwrite"]
+                .map(String::from)
+                .into(),
+            ..Provenance::default()
+        });
         let top = (6.0 - 0.25 * step as f64) * VOXEL;
         let draft = Draft::new(header)
             .block(block("wood-bottom", 0.0), &wood)
@@ -50,6 +57,7 @@ fn info_says_what_a_file_holds_and_a_man_page_needs_none() {
         "wood-top: rigid, 168 of 70 x 4 x 3 voxels (20.00 %) of 1.5 um from 0, 8.25, 0 um",
         "liquid      3 points",
         "position: 3 rows of 3 f32",
+        ": mpm-run 'my case.toml' --overwrite",
     ] {
         assert!(text.contains(expected), "'{expected}' is not in\n{text}");
     }

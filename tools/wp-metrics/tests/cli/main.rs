@@ -159,7 +159,7 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
         .run("empty")
         .refused(3, "a run that has written no final.mpts yet");
     let compared = bench.run("run/final.mpts --compare run/snapshots/0000.mpts");
-    compared.refused(2, "the experiment to compare with is no specimen");
+    compared.refused(2, "the file to compare with is not a specimen");
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn raw_volumes_and_proposed_grey_values() {
         "--labels void=10000,wood=18000,adhesive=26000",
     ] {
         let run = bench.run(&format!("{raw} {values}")).done();
-        let told = run.said.contains("grey values taken as wood=");
+        let told = run.said.contains("grey values: wood=");
         assert_eq!(told, values == "--grey auto", "{}", run.said);
         let found = rows(&run.output());
         let [found, expected] = [&found, &expected].map(|rows| rows.iter().map(|row| &row[1..]));

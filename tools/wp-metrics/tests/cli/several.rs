@@ -45,7 +45,7 @@ fn a_folder_of_specimens_has_rows_of_each_and_a_summary() {
 /// Copies, states beside specimens, and specimens that were left out because of pictures beside them, which
 /// were read as slices of a stack.
 #[test]
-fn what_has_no_mean_is_refused() {
+fn values_without_a_mean_are_refused() {
     let bench = scans();
     let mean = |files: &str| bench.run(&format!("{files} -o /dev/null --summary -"));
     state(&bench, "state.mpts", 0, 0.0);
@@ -63,7 +63,7 @@ fn what_has_no_mean_is_refused() {
 }
 
 #[test]
-fn a_fit_tells_its_tilt_behind_all_columns() {
+fn a_fitted_plane_adds_columns_of_tilt() {
     let table = crate::bench().run("specimen.mpts --reference fit").output();
     let errors = "tilt_x_error_deg,tilt_y_error_deg,tilt_z_error_deg";
     let header = format!("{HEADER},tilt_x_deg,tilt_y_deg,tilt_z_deg,{errors}");
