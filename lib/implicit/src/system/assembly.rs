@@ -140,7 +140,7 @@ impl Problem<'_> {
             let [shear, length] = edge.geometry(self.mesh, face);
             own += eta * shear;
             entries.add(next, -eta * shear);
-            let across = edge.across.map(|face| face as usize);
+            let across = edge.across(self.mesh, face);
             if let [Some(low), Some(high)] = across.map(number) {
                 // Where a surface crosses the edge, the lesser liquid of the two pairs of faces counts.
                 let weight = eta.min(thick * self.edge_stiffness(across)) * length;
