@@ -30,12 +30,16 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64], face: &Face) -> [f64; 2] {
 /// Liquid volume that moves with each face: its area share of the half pores on both sides.
 pub(crate) fn masses(mesh: &Mesh, fractions: &[f64]) -> Vec<f64> {
     let mass = |(index, face): (usize, &Face)| {
+        let parts = halves(mesh, fractions, face);
+        if parts == [0.0; 2] {
+            return 0.0;
+        }
         let axis = usize::from(face.axis);
         let half = |((pore, up), part): ((usize, bool), f64)| {
             0.5 * part * mesh.volume(pore) * mesh.area_share(index, pore, axis, up)
         };
         (face.pores().into_iter().zip([true, false]))
-            .zip(halves(mesh, fractions, face))
+            .zip(parts)
             .map(half)
             .sum::<f64>()
     };
