@@ -1,6 +1,5 @@
 //! Solution of the equations of a step, and forces on the bodies.
 
-use std::mem::take;
 use std::time::Instant;
 
 use saddle_point::{Load, SaddleSolver, SolveError};
@@ -80,11 +79,10 @@ pub(crate) fn solve(
     let unknowns = problem.unknowns;
     let equations = Equations::new(problem, excess_rate, drive)?;
     let system = equations.system(problem);
-    let velocity = take(&mut start.velocity);
     let mut u: Vec<f64> = (unknowns.faces.iter())
-        .map(|&face| velocity[face as usize])
+        .map(|&face| start.velocity[face as usize])
         .collect();
-    drop(velocity);
+    start.velocity = Vec::new();
     let mut p: Vec<f64> = (unknowns.pores.iter())
         .map(|&pore| start.pressure[pore as usize])
         .chain(problem.pockets.iter().map(|_| 0.0))
