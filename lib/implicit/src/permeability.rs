@@ -9,7 +9,7 @@ use crate::liquid::FaceMap;
 use crate::settings::{ITERATION_TOLERANCE, LINEAR_ITERATIONS};
 use crate::system::{
     Channels, Coefficients, Edges, Fronts, Problem, Unknowns, Viscosities, WallCouplings, masses,
-    resistance, stiffnesses,
+    resistance,
 };
 
 /// Relative residual of the solve. The error of the flux is a tenth of it.
@@ -128,9 +128,6 @@ impl Through {
         let couplings =
             WallCouplings::new(&channels, &FaceMap::default(), &WallCouplings::default());
         let unknowns = Unknowns::new(mesh, fractions, &vec![false; mesh.pores.len()]);
-        let halves: Vec<[f64; 2]> = (mesh.faces.iter())
-            .map(|face| face.pores().map(|pore| fractions[pore]))
-            .collect();
         let viscosities = Viscosities::constant(mesh, 1.0);
         let problem = Problem {
             lattice,
@@ -139,9 +136,7 @@ impl Through {
             edges: &Edges::new(mesh, lattice, &FaceMap::default(), &Edges::default()),
             unknowns: &unknowns,
             fractions,
-            halves: &halves,
-            masses: &masses(mesh, &halves),
-            stiffnesses: &stiffnesses(mesh, &halves, &viscosities),
+            masses: &masses(mesh, fractions),
             viscosities: &viscosities,
             before: &[],
             speed_before: 0.0,

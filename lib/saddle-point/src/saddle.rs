@@ -1,5 +1,7 @@
 //! Solution of the coupled velocity-pressure system.
 
+use std::mem::take;
+
 use crate::SolveError;
 use crate::cause::with_cause;
 use crate::csr::Csr;
@@ -35,8 +37,8 @@ impl SaddleSolver {
     pub fn solve(
         &self,
         system: &SaddleSystem,
-        u: &mut [f64],
-        p: &mut [f64],
+        u: &mut Vec<f64>,
+        p: &mut Vec<f64>,
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let rhs = system.right_hand_side();
@@ -60,8 +62,8 @@ impl SaddleSolver {
         &self,
         system: &SaddleSystem,
         load: &Load,
-        u: &mut [f64],
-        p: &mut [f64],
+        u: &mut Vec<f64>,
+        p: &mut Vec<f64>,
         speed: &mut f64,
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
@@ -100,8 +102,8 @@ impl SaddleSolver {
 /// Solves `system` by `iterate`, which improves velocities and pressures in one vector and returns the residuals.
 fn solve_with(
     system: &SaddleSystem,
-    u: &mut [f64],
-    p: &mut [f64],
+    u: &mut Vec<f64>,
+    p: &mut Vec<f64>,
     iterate: impl FnOnce(
         &mut SaddleOperator,
         &mut Preconditioner,
@@ -109,7 +111,11 @@ fn solve_with(
     ) -> Result<Vec<f64>, SolveError>
     + Send,
 ) -> Result<SaddleReport, SolveError> {
-    let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+    let faces = u.len();
+    let mut x = take(u);
+    // Room for the speed of a body.
+    x.reserve_exact(p.len() + 1);
+    x.extend(take(p));
     // The whole solve runs on the thread pool, so that its threads are not woken for every product.
     let report = rayon::scope(|_| {
         let g_transposed = system.g.transpose();
@@ -124,9 +130,9 @@ fn solve_with(
             eigenvalue_bound: preconditioner.bound(),
         })
     });
-    let (faces, cells) = (u.len(), p.len());
-    u.copy_from_slice(&x[..faces]);
-    p.copy_from_slice(&x[faces..faces + cells]);
+    x.truncate(faces + system.g.n_rows());
+    *p = x.split_off(faces);
+    *u = x;
     report.map_err(|error| with_cause(error, system))
 }
 

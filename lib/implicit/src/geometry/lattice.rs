@@ -102,10 +102,8 @@ impl Lattice {
         };
         let centre = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
         let layer = |y: f64| -> Layer {
-            let positions = (0..across[1]).flat_map(|z| (0..across[0]).map(move |x| [x, z]));
-            positions
-                .map(|[x, z]| code([centre(0, x), y, centre(2, z)]))
-                .collect()
+            let at = |i: usize| [centre(0, i % across[0]), y, centre(2, i / across[0])];
+            (0..across[0] * across[1]).map(|i| code(at(i))).collect()
         };
         let [bottom, top] = frames.gap;
         let below: Vec<Layer> = (0..layers(low, bottom))
@@ -156,10 +154,7 @@ impl Lattice {
                 false => OPEN,
             }
         };
-        let layer = |y: usize| {
-            let positions = (0..nz).flat_map(|z| (0..nx).map(move |x| [x, y, z]));
-            positions.map(code).collect()
-        };
+        let layer = |y: usize| (0..nx * nz).map(|i| code([i % nx, y, i / nx])).collect();
         let layers = (0..ny).map(layer).collect();
         Self::still(k, [size[0], size[2]], boundary, layers)
     }

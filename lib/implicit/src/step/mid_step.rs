@@ -6,7 +6,7 @@ use super::Implicit;
 use super::exchange::WaterExchange;
 use crate::clock::Stage;
 use crate::liquid::transport;
-use crate::system::{FULL, Flow, halves, masses};
+use crate::system::{FULL, Flow, masses};
 
 /// Accepted excess over the free volume of voids, as a share of all flow into voids. Steps in wood with many lumens stay
 /// below it and are solved once; results hardly depend on it up to 0.1.
@@ -22,8 +22,7 @@ pub(super) struct MidStep {
     pub(super) full: Vec<bool>,
     /// Volume fraction of each pore.
     pub(super) fractions: Vec<f64>,
-    /// Liquid fraction of the two halves of each face, and the liquid volume of both.
-    pub(super) halves: Vec<[f64; 2]>,
+    /// Liquid volume that moves with each face.
     pub(super) masses: Vec<f64>,
     /// Factor on the viscosity by cure.
     pub(super) viscosity: f64,
@@ -69,8 +68,7 @@ impl Implicit {
         }
         self.clock.add(Stage::Geometry, begun);
         let begun = Instant::now();
-        let halves = halves(&self.mesh, &fractions);
-        let masses = masses(&self.mesh, &halves);
+        let masses = masses(&self.mesh, &fractions);
         self.clock.add(Stage::Assembly, begun);
         let cure = self.setup.liquid.cure.as_ref();
         MidStep {
@@ -79,7 +77,6 @@ impl Implicit {
             end_height: end,
             full,
             fractions,
-            halves,
             masses,
             viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
             water_loss: None,

@@ -11,7 +11,7 @@ use crate::air::Air;
 use crate::clock::{Clock, Stage};
 use crate::system::{
     Drive, Flow, FlowField, MAX_PASSES, Problem, Unknowns, Viscosities, ViscosityIteration, forces,
-    solve, stiffnesses,
+    solve,
 };
 
 /// A solved step.
@@ -69,12 +69,18 @@ impl Implicit {
                 .map(|lost| (viscosity_iteration.used).thickened(mesh, &self.edges, &lost.factor));
             let viscosities = thick.as_ref().unwrap_or(&viscosity_iteration.used);
             clock.add(Stage::Viscosity, begun);
-            let previous = take(&mut flow);
+            let mut previous = take(&mut flow);
             let surface = (&torn[..], air.as_ref());
             let holds;
             let driven = (middle, drive);
-            (flow, forces, holds) =
-                self.solve_once(driven, &unknowns, viscosities, surface, &previous, clock)?;
+            (flow, forces, holds) = self.solve_once(
+                driven,
+                &unknowns,
+                viscosities,
+                surface,
+                &mut previous,
+                clock,
+            )?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;
@@ -146,12 +152,11 @@ impl Implicit {
         unknowns: &Unknowns,
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
-        start: &Flow,
+        start: &mut Flow,
         clock: &mut Clock,
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let (dt, full, fractions) = (middle.dt, &middle.full, &middle.fractions);
-        let stiffnesses = stiffnesses(mesh, &middle.halves, viscosities);
         let fronts = self.fronts(unknowns, torn, air, middle.viscosity, dt);
         let problem = Problem {
             lattice: &setup.lattice,
@@ -160,9 +165,7 @@ impl Implicit {
             edges: &self.edges,
             unknowns,
             fractions,
-            halves: &middle.halves,
             masses: &middle.masses,
-            stiffnesses: &stiffnesses,
             viscosities,
             before: &state.flow.velocity,
             speed_before: state.flow.speed,
@@ -189,7 +192,7 @@ impl Implicit {
                 *excess_rate += exchange.gained[pore] / dt;
             }
         }
-        let flow = solve(&problem, &excess_rate, drive, start, &self.solver, clock)
+        let flow = solve(&problem, excess_rate, drive, start, &self.solver, clock)
             .map_err(|error| self.unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());

@@ -4,9 +4,11 @@
 use rayon::prelude::*;
 use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
 
+use super::coupling::WallCoupling;
 use super::couplings::WallCouplings;
 use super::edges::Edges;
 use super::fronts::Fronts;
+use super::halves::{halves, stiffnesses};
 use super::stretching::stretching;
 use super::unknowns::Unknowns;
 use super::viscosity::Viscosities;
@@ -43,12 +45,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) unknowns: &'a Unknowns,
     /// Volume fraction of each pore, at most 1.
     pub(crate) fractions: &'a [f64],
-    /// Liquid fraction of the low and the high half of each face.
-    pub(crate) halves: &'a [[f64; 2]],
     /// Liquid volume that moves with each face.
     pub(crate) masses: &'a [f64],
-    /// Sum over the halves of each face of liquid fraction times viscosity; without the viscosity where edges have their own.
-    pub(crate) stiffnesses: &'a [f64],
     pub(crate) viscosities: &'a Viscosities,
     /// Velocity of each face before the step, relative to the grid, cells/s, and the closing speed then.
     pub(crate) before: &'a [f64],
@@ -67,11 +65,6 @@ impl Problem<'_> {
         self.fractions[pore] * self.viscosities.pores[pore]
     }
 
-    /// Mean over the four halves of two faces that meet at an edge of liquid fraction times viscosity.
-    fn edge_stiffness(&self, faces: [usize; 2]) -> f64 {
-        0.25 * (self.stiffnesses[faces[0]] + self.stiffnesses[faces[1]])
-    }
-
     /// The two pores of a face.
     pub(super) fn face_pores(&self, face: usize) -> [usize; 2] {
         self.mesh.faces[face].pores()
@@ -82,25 +75,30 @@ impl Problem<'_> {
         self.unknowns.face(face).is_some()
     }
 
-    /// Weights of wall friction at a face: liquid fraction times viscosity at the walls, in its low and its high half.
-    pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
-        let parts = self.halves[face];
+    /// The wall coupling of a face and the weights of its low and its high half: liquid fraction times viscosity at the walls.
+    pub(super) fn walls(&self, face: usize) -> (WallCoupling, [f64; 2]) {
+        let coupling = self.couplings.of(face);
+        if !coupling.walled {
+            return (coupling, [0.0; 2]);
+        }
+        let parts = halves(self.mesh, self.fractions, &self.mesh.faces[face]);
         let eta = self.viscosities.at_walls(face, self.face_pores(face));
-        [parts[0] * eta[0], parts[1] * eta[1]]
+        (coupling, [parts[0] * eta[0], parts[1] * eta[1]])
     }
 
     /// The velocity block A.
     pub(crate) fn velocity_block(&self) -> Result<VelocityBlock, SolveError> {
         let faces = &self.unknowns.faces;
+        let stiffnesses = stiffnesses(self.mesh, self.fractions, self.viscosities);
         VelocityBlock::assemble(faces.len(), |row, entries| {
-            self.momentum(faces[row] as usize, row, entries);
+            self.momentum(faces[row] as usize, row, &stiffnesses, entries);
         })
     }
 
-    /// Row of the velocity block for a face: wall friction, contact lines, inertia, stretching and shear.
-    fn momentum(&self, face: usize, row: usize, entries: &mut RowEntries) {
-        let coupling = self.couplings.of(face);
-        let weights = self.wall_weights(face);
+    /// Row of the velocity block for a face: wall friction, contact lines, inertia, stretching and shear, by the
+    /// [`stiffnesses`] of all faces.
+    fn momentum(&self, face: usize, row: usize, stiffnesses: &[f64], entries: &mut RowEntries) {
+        let (coupling, weights) = self.walls(face);
         let friction = weights[0] * coupling.friction[0] + weights[1] * coupling.friction[1];
         let drag = self
             .fronts
@@ -128,6 +126,8 @@ impl Problem<'_> {
                 }
             });
         }
+        // Mean over the four halves of two faces.
+        let mean = |[one, other]: [usize; 2]| 0.25 * (stiffnesses[one] + stiffnesses[other]);
         for (index, edge) in self.edges.of(face).iter().enumerate() {
             let Some(next) = number(edge.next as usize) else {
                 continue;
@@ -136,14 +136,14 @@ impl Problem<'_> {
                 .get(self.edges.first(face) + index)
                 .copied()
                 .unwrap_or(1.0);
-            let eta = thick * self.edge_stiffness([face, edge.next as usize]);
+            let eta = thick * mean([face, edge.next as usize]);
             let [shear, length] = edge.geometry(self.mesh, face);
             own += eta * shear;
             entries.add(next, -eta * shear);
-            let across = edge.across.map(|face| face as usize);
+            let across = edge.across(self.mesh, face);
             if let [Some(low), Some(high)] = across.map(number) {
                 // Where a surface crosses the edge, the lesser liquid of the two pairs of faces counts.
-                let weight = eta.min(thick * self.edge_stiffness(across)) * length;
+                let weight = eta.min(thick * mean(across)) * length;
                 entries.add(high, -weight);
                 entries.add(low, weight);
             }
@@ -174,8 +174,7 @@ impl Problem<'_> {
         let standing = self.coefficients.gravity[axis] * mass + self.front_force(face);
         let known = inertia * self.before[face] + standing;
         let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
-        let coupling = self.couplings.of(face);
-        let weights = self.wall_weights(face);
+        let (coupling, weights) = self.walls(face);
         let etas = self.viscosities.at_walls(face, f.pores());
         for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(coupling.sliding) {
             force[0] += weight * own;
@@ -217,8 +216,7 @@ impl Problem<'_> {
 
     /// Force per closing speed by the walls and the inertia of one face at rest relative to the grid.
     fn face_resistance(&self, face: usize) -> f64 {
-        let coupling = self.couplings.of(face);
-        let weights = self.wall_weights(face);
+        let (coupling, weights) = self.walls(face);
         let walls = weights[0] * coupling.resistance[0] + weights[1] * coupling.resistance[1];
         if self.mesh.faces[face].axis != 1 {
             return walls;
@@ -252,8 +250,7 @@ impl Problem<'_> {
     pub(crate) fn viscous_parts(&self, u: &[f64], speed: f64) -> f64 {
         let part = |(&face, u): (&u32, &f64)| {
             let face = face as usize;
-            let coupling = self.couplings.of(face);
-            let weights = self.wall_weights(face);
+            let (coupling, weights) = self.walls(face);
             let grid = match self.mesh.faces[face].axis {
                 1 => self.mesh.grid_velocity(self.lattice, face) * speed,
                 _ => 0.0,

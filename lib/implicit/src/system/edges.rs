@@ -10,26 +10,44 @@ use crate::liquid::FaceMap;
 pub(crate) struct Edge {
     /// The next face.
     pub(crate) next: u32,
-    /// The faces normal to `t` at the edge: between the low pores of both faces, and between their high pores.
-    pub(crate) across: [u32; 2],
     /// Correction for re-entrant edges, in cubic cells.
     factor: f32,
     /// Length of the edge, voxels; negative if the next face lies on the low side.
     shared: i8,
-    /// Open height along `t` of the face and of the next one at the edge, voxels.
+    /// Open heights at the edge, voxels, four bits each: of the face and of the next one along `t`, and of the two faces
+    /// [`Self::across`] along the axis of the face.
     open: [u8; 2],
-    /// Open height of the two faces `across` along the axis of the face, voxels.
-    across_open: [u8; 2],
     t: u8,
 }
 
+/// Two open heights in one byte, to keep edges small.
+fn packed([low, high]: [u8; 2]) -> u8 {
+    low | high << 4
+}
+
 impl Edge {
+    /// The faces normal to `t` at the edge: between the low pores of both faces, and between their high pores.
+    pub(crate) fn across(&self, mesh: &Mesh, face: usize) -> [usize; 2] {
+        let (mut low, mut high) = (&mesh.faces[face], &mesh.faces[self.next as usize]);
+        if self.shared < 0 {
+            (low, high) = (high, low);
+        }
+        [(low.low, high.low), (low.high, high.high)].map(|(low, high)| {
+            let mut faces = mesh.faces_of(mesh.cell(low as usize), self.t.into());
+            match faces.len() {
+                1 => faces.start,
+                _ => (faces
+                    .find(|&face| mesh.faces[face].pores() == [low, high].map(|p| p as usize)))
+                .unwrap_or(face),
+            }
+        })
+    }
+
     /// Shear rate at the edge by the face velocities `u`.
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
-        let [low, high] = self.across.map(|face| u[face as usize]);
-        let across =
-            (high - low) / distance_between(mesh, self.across_open, [f.low, f.high], f.axis);
+        let [low, high] = self.across(mesh, face).map(|face| u[face]);
+        let across = (high - low) / distance_between(mesh, self.open[1], [f.low, f.high], f.axis);
         (self.slope(mesh, face, u) + across).abs()
     }
 
@@ -37,7 +55,7 @@ impl Edge {
     pub(super) fn slope(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let lows = [face, self.next as usize].map(|face| mesh.faces[face].low);
         let along =
-            (u[self.next as usize] - u[face]) / distance_between(mesh, self.open, lows, self.t);
+            (u[self.next as usize] - u[face]) / distance_between(mesh, self.open[0], lows, self.t);
         along * f64::from(self.shared.signum())
     }
 
@@ -63,7 +81,7 @@ impl Edge {
         let (axis, along) = (usize::from(f.axis), self.axis(mesh, face));
         let edge = |pore: u32, a: usize| mesh.edge(pore as usize, a);
         let next = mesh.faces[self.next as usize].low;
-        let distance = distance_between(mesh, self.open, [f.low, next], self.t);
+        let distance = distance_between(mesh, self.open[0], [f.low, next], self.t);
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
         let length = edge(f.low, along);
         let lowest = match along {
@@ -84,9 +102,9 @@ impl Edge {
 }
 
 /// Distance along an axis between the middles of two adjacent open heights (`open`, in voxels) in two pores, cells.
-fn distance_between(mesh: &Mesh, open: [u8; 2], pores: [u32; 2], axis: u8) -> f64 {
-    let [low, high] =
-        [0, 1].map(|i| f64::from(open[i]) * mesh.edge(pores[i] as usize, usize::from(axis)));
+fn distance_between(mesh: &Mesh, open: u8, pores: [u32; 2], axis: u8) -> f64 {
+    let [low, high] = [0, 1]
+        .map(|i| f64::from(open >> (4 * i) & 15) * mesh.edge(pores[i] as usize, usize::from(axis)));
     0.5 * (low + high) / mesh.k as f64
 }
 
@@ -107,12 +125,8 @@ impl Edges {
             }
         }
         let renumbered = |edge: &Edge| {
-            let [low, high] = edge.across.map(|face| new_face[face as usize]);
-            Some(Edge {
-                next: new_face[edge.next as usize]?,
-                across: [low?, high?],
-                ..*edge
-            })
+            let next = new_face[edge.next as usize]?;
+            Some(Edge { next, ..*edge })
         };
         let inner = mesh.inner_faces();
         let clear = mesh.wall_free_cells();
@@ -189,10 +203,7 @@ impl Edges {
 /// Adds the edges of a face. Voxels of an edge between the same faces are merged if they have the same re-entrant correction.
 fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize, clear: bool) {
     let axis = usize::from(mesh.faces[face].axis);
-    let key = |edge: &Edge| {
-        let factor = edge.factor.to_bits();
-        (edge.next, edge.across, edge.open, edge.across_open, factor)
-    };
+    let key = |edge: &Edge| (edge.next, edge.open, edge.factor.to_bits());
     for t in others(axis)
         .into_iter()
         .filter(|&t| !(lattice.flat && t == 2))
@@ -222,20 +233,13 @@ fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize,
 /// The edge at one side of a face along `t` if all cells around are wholly open: one pore each, one face between two.
 fn clear_edge(mesh: &Mesh, face: usize, t: usize, up: bool) -> Option<Edge> {
     let f = mesh.faces[face];
-    let cells = f.pores().map(|pore| mesh.cell(pore));
-    let beside = [
-        mesh.next_cell(cells[0], t, up)?,
-        mesh.next_cell(cells[1], t, up)?,
-    ];
-    let first = |cell: usize, axis: usize| mesh.faces_of(cell, axis).start as u32;
+    let beside = mesh.next_cell(mesh.cell(f.low as usize), t, up)?;
     let k = mesh.k as u8;
     Some(Edge {
-        next: first(beside[0], f.axis.into()),
-        across: if up { cells } else { beside }.map(|cell| first(cell, t)),
+        next: mesh.faces_of(beside, f.axis.into()).start as u32,
         factor: 1.0,
         shared: if up { k as i8 } else { -(k as i8) },
-        open: [k; 2],
-        across_open: [k; 2],
+        open: [packed([k; 2]); 2],
         t: t as u8,
     })
 }
@@ -291,13 +295,14 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     let factor = (0.5 * (0..2).map(reentrant).sum::<f64>()).exp();
     Some(Edge {
         next: next as u32,
-        across: [beside_low as u32, beside_high as u32],
         factor: factor as f32,
         shared: if up { 1 } else { -1 },
-        open: [own, height(next, t, far)],
-        across_open: [
-            height(beside_low, axis, k - 1),
-            height(beside_high, axis, 0),
+        open: [
+            packed([own, height(next, t, far)]),
+            packed([
+                height(beside_low, axis, k - 1),
+                height(beside_high, axis, 0),
+            ]),
         ],
         t: t as u8,
     })

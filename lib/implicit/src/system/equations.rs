@@ -34,7 +34,7 @@ impl Equations {
     /// pore with a pressure over the pore's volume, per time.
     pub(super) fn new(
         problem: &Problem,
-        excess_rate: &[f64],
+        excess_rate: Vec<f64>,
         drive: Drive,
     ) -> Result<Self, SolveError> {
         let (unknowns, coefficients) = (problem.unknowns, &problem.coefficients);
@@ -74,7 +74,7 @@ impl Equations {
             clinging,
             source: of_pores(&|pore| problem.closing_loss(pore)),
             volume_source: Vec::new(),
-            excess_rate: excess_rate.to_vec(),
+            excess_rate,
             known_body_force: force_on_body.iter().sum(),
         };
         equations.add_pockets(problem);

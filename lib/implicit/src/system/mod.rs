@@ -21,7 +21,7 @@ pub(crate) use couplings::{Channels, WallCouplings};
 pub(crate) use edges::Edges;
 pub(crate) use equations::resistance;
 pub(crate) use fronts::{Fronts, REST_DISTANCE, Wetting};
-pub(crate) use halves::{halves, masses, stiffnesses};
+pub(crate) use halves::masses;
 pub(crate) use profile::Profile;
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};

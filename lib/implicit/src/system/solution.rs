@@ -65,13 +65,13 @@ impl Flow {
     }
 }
 
-/// Solves a problem from the flow `start`. `excess_rate` is the excess of the liquid in each pore with a pressure over the
+/// Solves a problem from the flow `start`, whose velocities are freed: memory peaks in the solver. `excess_rate` is the excess of the liquid in each pore with a pressure over the
 /// pore's volume, per time.
 pub(crate) fn solve(
     problem: &Problem,
-    excess_rate: &[f64],
+    excess_rate: Vec<f64>,
     drive: Drive,
-    start: &Flow,
+    start: &mut Flow,
     solver: &SaddleSolver,
     clock: &mut Clock,
 ) -> Result<Flow, SolveError> {
@@ -82,6 +82,7 @@ pub(crate) fn solve(
     let mut u: Vec<f64> = (unknowns.faces.iter())
         .map(|&face| start.velocity[face as usize])
         .collect();
+    start.velocity = Vec::new();
     let mut p: Vec<f64> = (unknowns.pores.iter())
         .map(|&pore| start.pressure[pore as usize])
         .chain(problem.pockets.iter().map(|_| 0.0))
@@ -139,9 +140,8 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
     }
     for &face in &problem.unknowns.faces {
         let face = face as usize;
-        let coupling = problem.couplings.of(face);
         if mesh.faces[face].axis == 1 {
-            let weights = problem.wall_weights(face);
+            let (coupling, weights) = problem.walls(face);
             let drag: f64 = (0..2)
                 .map(|half| {
                     let wall = coupling.sliding[half][0] + flow.speed * coupling.sliding[half][1];

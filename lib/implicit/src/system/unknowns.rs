@@ -47,6 +47,7 @@ impl Unknowns {
                 unknowns.has_pressure[pore] = true;
             }
         }
+        unknowns.faces.shrink_to_fit();
         let pores = 0..mesh.pores.len() as u32;
         unknowns.pores = (pores.filter(|&pore| unknowns.has_pressure[pore as usize])).collect();
         unknowns

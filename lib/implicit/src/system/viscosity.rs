@@ -176,12 +176,12 @@ impl FlowField<'_> {
         let mut sums = [0.0; 2];
         for edge in self.edges.of(face) {
             let along = u[edge.next as usize] - u[face];
-            let across = u[edge.across[1] as usize] - u[edge.across[0] as usize];
             if along == 0.0 {
                 continue;
             }
+            let [low, high] = edge.across(mesh, face).map(|face| u[face]);
             let [shear, length] = edge.geometry(mesh, face);
-            let sheared = shear * along + length * across;
+            let sheared = shear * along + length * (high - low);
             sums[usize::from(edge.axis(mesh, face) != first)] += 0.25 * along * sheared;
         }
         sums

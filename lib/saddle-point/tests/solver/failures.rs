@@ -41,11 +41,11 @@ fn failures_are_reported() {
         "{few}"
     );
     let solver = SaddleSolver::new(options(1e-3));
-    let mut error = |u: &mut [f64], problem: &Problem| {
+    let mut error = |u: &mut Vec<f64>, problem: &Problem| {
         let solved = solver.solve(&problem.system(), u, &mut p);
         solved.unwrap_err()
     };
-    let said = error(&mut u[1..], &problem);
+    let said = error(&mut u[1..].to_vec(), &problem);
     assert!(
         matches!(said, SolveError::Length { what, .. } if what == "velocities"),
         "{said}"
