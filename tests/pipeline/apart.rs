@@ -46,7 +46,7 @@ fn metrics_leave_every_file_of_their_stacks() {
         ("a.mhd --compare slices -o slices/003.tif", "slices/003.tif"),
         ("- -o a.tif < a.tif", "a.tif"),
     ] {
-        refused(&bench, &format!("{METRICS} {line}"), kept, "is read");
+        refused(&bench, &format!("{METRICS} {line}"), kept, "is an input");
     }
     for name in ["a.mhd", "slices"] {
         bench.done(&format!("{METRICS} {name} -o m.csv"));

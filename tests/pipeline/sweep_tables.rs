@@ -38,13 +38,13 @@ specimen.grain_angle;5 um | row 1, column specimen.grain_angle: | angle
 specimen.voxel;-1 um | row 1, column specimen.voxel: | greater than zero
 specimen.colour;1 | 'specimen.colour' | there are adhesive, size
 a.b,a.b;1,2 | two columns 'a.b' | table.csv
-a.b\tc.d;1 | is no column | separated by commas
-a.b,c.d;1,2;1 | row 2 has 1 cells | stands in quotes
+a.b\tc.d;1 | is not a column | separated by commas
+a.b,c.d;1,2;1 | row 2 has 1 cells | in quotes
 a.b,c.d;,;, | no row | below its header
 a.b | no row | below its header
 specimen.size;8x8x8 | row 1: its specimen: | synth-xct:
 case;absent | row 1 | absent.toml
-viscosity;1 | 'viscosity' | is no column";
+viscosity;1 | 'viscosity' | is not a column";
 
 #[test]
 fn a_bad_cell_is_named_before_any_run_starts() {
@@ -60,7 +60,7 @@ fn a_bad_cell_is_named_before_any_run_starts() {
     }
     bench.write("table.csv", "particles\nbond.mpts\n");
     bench.write("runs.txt", "mine");
-    bench.ends(2, &format!("{PLAN} ."), "not of a sweep");
+    bench.ends(2, &format!("{PLAN} ."), "does not belong to a sweep");
     assert_eq!(bench.read("runs.txt"), b"mine");
 }
 
@@ -110,7 +110,7 @@ fn killed_runs_give_the_same_table_and_failed_ones_their_reason() {
     bench.done("bond-figures response whole.csv -o r.svg");
     let drawn = bench.text("r.svg");
     assert!(
-        drawn.contains("5 runs, of which 1 have no result"),
+        drawn.contains("5 runs, 1 of them without a result"),
         "{drawn}"
     );
     // A bond file that changes under a plan is not what its rows say.

@@ -229,7 +229,7 @@ mod tests {
     fn a_colour_scale_leaves_outliers_out_and_says_so() {
         let values = || (0..1000).map(f64::from).chain([1e6]);
         let axis = Axis::covering("T", values(), [0.0, 0.99]);
-        assert_eq!(axis.title, "T, top: and more");
+        assert_eq!(axis.title, "T, top: or more");
         assert_eq!(axis.share(500.0), 0.5);
         let all = Axis::covering("T", values(), [0.0, 1.0]);
         assert_eq!((all.title.as_str(), all.share(1e6)), ("T", 1.0));

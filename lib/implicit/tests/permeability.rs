@@ -201,7 +201,7 @@ fn what_ends_within_lets_nothing_through_and_what_is_no_cube_is_refused() {
     assert_eq!((blind.m2, blind.coarse_m2, blind.through), (0.0, 0.0, 0.0));
     let flat = VoxelBlock::from_fn([0.0; 3], [EDGE, EDGE, 2.0 * EDGE], [4; 3], |_, _, _| false);
     let said = permeability(&flat, 0, Boundary::Symmetry).unwrap_err();
-    assert!(said.contains("no cubes"), "{said}");
+    assert!(said.contains("not cubes"), "{said}");
     let thin = block([1, 4, 4], 2, |_, _, _| false);
     let said = permeability(&thin, 2, Boundary::Symmetry).unwrap_err();
     assert!(said.contains("one voxel along x"), "{said}");

@@ -73,8 +73,8 @@ fn a_point_alone_is_named_and_stable_at_the_step_advised() {
     for (viscosity, unstable, stable) in [(scenes::VISCOSITY, 0.5, 0.4), (1e-3, 0.5, 0.25)] {
         let said = end(viscosity, unstable).expect("a failure").0;
         println!("{viscosity} Pa s: {said}");
-        assert!(said.contains("alone"));
-        assert!(said.contains("needs 0.4 of the viscous and 0.25 of the acoustic limit"));
+        assert!(said.contains("a single point"));
+        assert!(said.contains("needs 0.4 times the viscous and 0.25 times the acoustic limit"));
         assert_eq!(end(viscosity, stable), None);
     }
 }

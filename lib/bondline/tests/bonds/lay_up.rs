@@ -161,8 +161,8 @@ fn pieces_that_do_not_fit_are_refused() {
     assert!(with(8.0).is_ok());
     refused(with(10.0), "could never close");
     refused(with(1e30), "could never close");
-    refused(with(0.0), "rounded to 0");
-    refused(with(0.4), "rounded to 0");
+    refused(with(0.0), "rounding to 0");
+    refused(with(0.4), "rounding to 0");
     let solid = BitGrid::from_fn([16, 20, 12], |_, _, _| true);
     refused(two(&solid, &solid, &layup()), "could never close");
     let empty = BitGrid::new([16, 20, 12]);

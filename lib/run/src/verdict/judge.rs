@@ -166,7 +166,7 @@ mod tests {
             (|l| l.velocity[0][1] = 1001.0, "above its speed of sound"),
             (
                 |l| l.volume.iter_mut().for_each(|v| *v *= 1.01),
-                "+1.00 % off",
+                "differs by +1.00 %",
             ),
             (|l| l.position = vec![l.position[0]; 32], "no room for it"),
             (|l| l.position.truncate(31), "31 remain and 0 left"),

@@ -74,7 +74,7 @@ fn a_free_drop_with_its_defaults_is_the_same_run() {
     let case = "[grid]\ncell = \"1.7 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n[stop]\ntime = \"0.01 us\"\n[[body]]\nmaterial = \"adhesive\"\nvelocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\nbox = { min = [\"0.1 um\", \"0 um\", \"0 um\"], max = [\"10.3 um\", \"7 um\", \"5 um\"] }\n[boundary]\nx = \"periodic\"\n";
     let text = runs_again(&Bench::with(case));
     let lines = [
-        "domain.min = [\"1e-7 m\", \"0.0 m\", \"0.0 m\"] # default",
+        "domain.min = [\"0.1 um\", \"0 m\", \"0 m\"] # default",
         "history_every = \"0.01 ns\" # default",
         "# [clamp]: not given",
         "x = \"periodic\"\n",

@@ -60,11 +60,11 @@ a.mpts --slab 11.6um --spread 14g/m2 --density 1.2g/cm3 --plane 29um | 2 | canno
 a.mpts --turn-top 90 | 2 | for undamaged wood
 a.mpts --plane 29um --slab 11.6um --turn-top 90 | 2 | --crop-to-fit
 a.mpts --plane 29um --slab 11.6um --turn-top 45 | 2 | 0, 90, 180, 270
---bottom a.mpts --top a.mpts | 2 | hold no adhesive
+--bottom a.mpts --top a.mpts | 2 | two pieces of wood have no adhesive
 --bottom a.mpts --slab 11.6um | 2 | --top
 --bottom a.mpts --top a.mpts --slab 11.6um --plane 29um | 2 | --plane cuts one piece
 a.mpts --bottom a.mpts --top a.mpts --slab 11.6um | 2 | cannot be used with
---bottom - --top - --slab 11.6um | 2 | both pieces
+--bottom - --top - --slab 11.6um | 2 | only one piece
 --bottom a.mpts --top x.mpts --slab 11.6um | 2 | not the same axis
 ";
 
