@@ -193,9 +193,9 @@ impl FlowField<'_> {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
         for Neighbour { face, axis, up, .. } in mesh.neighbours(pore) {
-            if !up {
-                // The pore is on the high side of its low faces.
-                stretching(mesh, face, true, |term| {
+            // Terms of its low faces, or of its high ones if it has no low ones.
+            if !up || mesh.faces_at(pore, axis, false).len() == 0 {
+                stretching(mesh, face, !up, |term| {
                     let other = term.other.map_or(0.0, |other| u[other]);
                     let rate = other - u[face] + term.closing * self.speed;
                     parts[0] += term.weight * rate.powi(2);

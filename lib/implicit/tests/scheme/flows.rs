@@ -1,6 +1,6 @@
 //! Liquid in free flight, liquid driven across rods by its weight, and pistons from above and below.
 
-use physics::{Boundary, Motion, Scheme, VoxelBlock, WallLaw};
+use physics::{Boundary, LiquidState, Motion, Scheme, VoxelBlock, WallLaw};
 
 use crate::plain;
 use crate::runs::{advance, press, solved};
@@ -56,9 +56,9 @@ fn flow_across_rods_in_plane_strain_is_that_of_finer_cells() {
     assert!(one.abs() < 0.04 && four.abs() < 0.01);
 }
 
-/// A piston presses liquid into a slit for 20 us: from above, or the same turned over. Forces on the piston and on the walls, and y
-/// of each point, from the end of the slit.
-fn pressed(down: bool) -> ([f64; 2], Vec<f32>) {
+/// A piston presses liquid into a slit for 20 us: from above, or the same turned over. Forces on the piston and on the walls, and the
+/// liquid with y from the end of the slit.
+fn pressed(down: bool) -> ([f64; 2], LiquidState) {
     const HIGH: usize = 24;
     let h = 2e-6;
     let mut scene = plain::scene(h, [8, HIGH, 1]);
@@ -96,17 +96,12 @@ fn pressed(down: bool) -> ([f64; 2], Vec<f32>) {
             (HIGH as f64 * h) as f32 - y
         }
     };
-    let mut heights: Vec<f32> = scheme
-        .liquid()
-        .position
-        .iter()
-        .map(|x| turned(x[1]))
-        .collect();
-    heights.sort_by(f32::total_cmp);
-    (
-        [report.pressure_top, report.pressure_bottom].map(f64::abs),
-        heights,
-    )
+    let mut liquid = scheme.liquid();
+    for place in &mut liquid.position {
+        place[1] = turned(place[1]);
+    }
+    let forces = [report.pressure_top, report.pressure_bottom].map(f64::abs);
+    (forces, liquid)
 }
 
 #[test]
@@ -121,7 +116,33 @@ fn a_piston_from_below_presses_as_one_from_above() {
     let [piston, walls] = from_above.0;
     println!("walls over piston: {:.1e}", walls / piston - 1.0);
     assert!((walls / piston - 1.0).abs() < 1e-4);
-    for (y, other) in from_above.1.iter().zip(&from_below.1) {
+    let heights = |liquid: &LiquidState| {
+        let mut heights: Vec<f32> = liquid.position.iter().map(|x| x[1]).collect();
+        heights.sort_by(f32::total_cmp);
+        heights
+    };
+    for (y, other) in heights(&from_above.1).iter().zip(heights(&from_below.1)) {
         assert!((y - other).abs() < 1e-9, "{y} {other}");
     }
+}
+
+/// Pores beside walls count in all directions: shear rates are those of the flow turned over and of its mirror image.
+#[test]
+fn shear_rates_of_a_mirrored_flow_are_mirrored() {
+    const WIDTH: f32 = 16e-6;
+    let (liquid, turned) = (pressed(true).1, pressed(false).1);
+    let fastest = liquid.shear_rate.iter().copied().fold(0.0, f32::max);
+    let rate_at = |liquid: &LiquidState, at: [f32; 2]| {
+        let near = |x: &[f32; 3]| (x[0] - at[0]).abs().max((x[1] - at[1]).abs()) < 1e-9;
+        let point = liquid.position.iter().position(near);
+        liquid.shear_rate[point.expect("a point at the mirrored place")]
+    };
+    let mut worst = 0.0_f32;
+    for (&[x, y, _], rate) in liquid.position.iter().zip(&liquid.shear_rate) {
+        for other in [rate_at(&liquid, [WIDTH - x, y]), rate_at(&turned, [x, y])] {
+            worst = worst.max((rate - other).abs() / fastest);
+        }
+    }
+    println!("shear rates off their mirror images: {worst:.1e}");
+    assert!(worst < 1e-3);
 }
