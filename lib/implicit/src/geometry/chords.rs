@@ -7,22 +7,96 @@ use super::Lattice;
 use super::lattice::OPEN;
 
 /// Cap on chord lengths, voxels, which also stands for infinity: walls farther apart do not affect each other's friction.
-pub(super) const LONGEST_CHORD: u16 = 1000;
+pub(super) const LONGEST_CHORD: f64 = 1000.0;
 
-/// A run of open voxels along y that starts at the gap, in the part below or above: its length, and whether it reaches the side
-/// of the domain.
-#[derive(Clone, Copy, Default)]
-struct Column {
-    voxels: u32,
-    reaches_side: bool,
+/// The open voxels of lines of `n` voxels, a bit each.
+struct Lines {
+    n: usize,
+    /// Words of a line.
+    words: usize,
+    bits: Vec<u64>,
 }
 
-/// Chord lengths of all voxels. Those that involve the gap are tabulated; others are counted on request.
+impl Lines {
+    fn new(lines: usize, n: usize, open: impl Fn(usize, usize) -> bool) -> Self {
+        let words = n.div_ceil(64);
+        let mut bits = vec![0; lines * words];
+        for line in 0..lines {
+            for i in (0..n).filter(|&i| open(line, i)) {
+                bits[line * words + i / 64] |= 1 << (i % 64);
+            }
+        }
+        Self { n, words, bits }
+    }
+
+    /// Closed voxels of a word of a line; those beyond its end count as closed.
+    fn closed(&self, line: usize, word: usize) -> u64 {
+        !self.bits[line * self.words + word]
+    }
+
+    /// Start of the open run that ends before voxel `end`.
+    fn start(&self, line: usize, end: usize) -> usize {
+        let wall = (0..end.div_ceil(64)).rev().find_map(|word| {
+            let ahead = (64 * (word + 1)).saturating_sub(end);
+            let closed = self.closed(line, word) & (u64::MAX >> ahead);
+            (closed != 0).then(|| 64 * (word + 1) - closed.leading_zeros() as usize)
+        });
+        wall.unwrap_or(0)
+    }
+
+    /// End of the open run that starts at voxel `start`.
+    fn end(&self, line: usize, start: usize) -> usize {
+        let wall = (start / 64..self.words).find_map(|word| {
+            let behind = start.saturating_sub(64 * word);
+            let closed = self.closed(line, word) & (u64::MAX << behind);
+            (closed != 0).then(|| 64 * word + closed.trailing_zeros() as usize)
+        });
+        wall.map_or(self.n, |wall| wall.min(self.n))
+    }
+
+    /// Chord length through voxel `i` of a line: doubled at a mirror, joined across periodic sides.
+    fn chord_length(&self, line: usize, boundary: Boundary, i: usize) -> f64 {
+        let (from, to) = (self.start(line, i), self.end(line, i));
+        let (first, last, length) = (from == 0, to == self.n, to - from);
+        let length = match boundary {
+            _ if !first && !last => length,
+            Boundary::Symmetry if first != last => 2 * length,
+            Boundary::Periodic if first && !last => length + (self.n - self.start(line, self.n)),
+            Boundary::Periodic if last && !first => length + self.end(line, 0),
+            _ => return LONGEST_CHORD,
+        };
+        (length as f64).min(LONGEST_CHORD)
+    }
+}
+
+/// A part of the lattice as lines along x (layer by layer), y and z.
+struct Part([Lines; 3]);
+
+impl Part {
+    fn new(layers: &[&[u8]], [nx, nz]: [usize; 2]) -> Self {
+        let n = layers.len();
+        Self([
+            Lines::new(n * nz, nx, |line, x| {
+                layers[line / nz][line % nz * nx + x] == OPEN
+            }),
+            Lines::new(nx * nz, n, |at, layer| layers[layer][at] == OPEN),
+            Lines::new(n * nx, nz, |line, z| {
+                layers[line / nx][z * nx + line % nx] == OPEN
+            }),
+        ])
+    }
+
+    /// Voxels of the open run along y that continues the gap at index `at` of the layers.
+    fn column(&self, at: usize) -> usize {
+        self.0[1].end(at, 0)
+    }
+}
+
+/// Chord lengths of all voxels, found in lines of bits.
 pub(crate) struct Chords {
-    /// Chord lengths along x and along z in the gap.
-    gap: [Vec<u16>; 2],
-    /// Runs of open voxels that continue the gap below and above.
-    columns: [Vec<Column>; 2],
+    below: Part,
+    gap: Part,
+    above: Part,
 }
 
 /// Address of a voxel: part of the lattice, layer counted from the gap, index in the layer.
@@ -35,32 +109,14 @@ pub(crate) enum VoxelAddress {
 
 impl Chords {
     pub(crate) fn new(lattice: &Lattice) -> Self {
-        let [nx, nz] = lattice.layer_size();
-        let in_gap = |axis: usize| {
-            let mut lengths: Vec<u16> = vec![0; nx * nz];
-            let stride = [1, nx][axis];
-            for at in (0..nx * nz).filter(|&at| lattice.gap[at] == OPEN) {
-                let i = [at % nx, at / nx][axis];
-                lengths[at] = match i > 0 && lattice.gap[at - stride] == OPEN {
-                    true => lengths[at - stride],
-                    false => chord_in_layer(&lattice.gap, at, axis, lattice),
-                };
-            }
-            lengths
-        };
-        let columns = |layers: &[Vec<u8>]| {
-            let column = |at: usize| {
-                let voxels = layers.iter().take_while(|layer| layer[at] == OPEN).count();
-                Column {
-                    voxels: voxels as u32,
-                    reaches_side: voxels == layers.len(),
-                }
-            };
-            (0..nx * nz).map(column).collect()
+        let part = |layers: &[Vec<u8>]| {
+            let layers: Vec<&[u8]> = layers.iter().map(|layer| &layer[..]).collect();
+            Part::new(&layers, lattice.layer_size())
         };
         Self {
-            gap: [0, 1].map(in_gap),
-            columns: [columns(&lattice.below), columns(&lattice.above)],
+            below: part(&lattice.below),
+            gap: Part::new(&[&lattice.gap], lattice.layer_size()),
+            above: part(&lattice.above),
         }
     }
 
@@ -74,44 +130,44 @@ impl Chords {
     ) -> f64 {
         let (part, layer, at) = match address {
             VoxelAddress::Gap(at) if axis == 1 => return self.length_through_gap(lattice, at, gap),
-            VoxelAddress::Gap(at) => return f64::from(self.gap[axis / 2][at]),
-            VoxelAddress::Below(layer, at) => (&lattice.below, layer, at),
-            VoxelAddress::Above(layer, at) => (&lattice.above, layer, at),
+            VoxelAddress::Gap(at) => (&self.gap, 0, at),
+            VoxelAddress::Below(layer, at) => (&self.below, layer, at),
+            VoxelAddress::Above(layer, at) => (&self.above, layer, at),
         };
-        if axis != 1 {
-            return f64::from(chord_in_layer(&part[layer], at, axis / 2, lattice));
+        let [nx, nz] = lattice.layer_size();
+        let (line, i) = match axis {
+            0 => (layer * nz + at / nx, at % nx),
+            1 => (at, layer),
+            _ => (layer * nx + at % nx, at / nx),
+        };
+        let lines = &part.0[axis];
+        if axis != 1 || lattice.moving.is_none() {
+            return lines.chord_length(line, lattice.boundary[axis], i);
         }
-        let (n, open) = (part.len(), |i: usize| part[i][at] == OPEN);
-        if lattice.moving.is_none() {
-            return f64::from(chord_length(n, lattice.boundary[1], open, layer));
-        }
-        let [from, to] = open_run(n, &open, layer);
+        let (from, to) = (lines.start(line, i), lines.end(line, i));
         match from {
             0 => self.length_through_gap(lattice, at, gap),
-            _ => bounded_length(lattice, (to - from) as f64, usize::from(to == n)),
+            _ => bounded_length(lattice, (to - from) as f64, usize::from(to == lines.n)),
         }
     }
 
     /// Whether the chord along y through a voxel goes through the gap.
     pub(crate) fn through_gap(&self, lattice: &Lattice, address: VoxelAddress) -> bool {
-        let (column, layer) = match address {
-            VoxelAddress::Gap(_) => return true,
-            _ if lattice.moving.is_none() => return false,
-            VoxelAddress::Below(layer, at) => (&self.columns[0][at], layer),
-            VoxelAddress::Above(layer, at) => (&self.columns[1][at], layer),
-        };
-        layer < column.voxels as usize
+        match address {
+            VoxelAddress::Gap(_) => true,
+            _ if lattice.moving.is_none() => false,
+            VoxelAddress::Below(layer, at) => layer < self.below.column(at),
+            VoxelAddress::Above(layer, at) => layer < self.above.column(at),
+        }
     }
 
     /// Chord length along y through the gap at index `at` of the layers.
     fn length_through_gap(&self, lattice: &Lattice, at: usize, gap: f64) -> f64 {
-        let [low, high] = [0, 1].map(|part| self.columns[part][at]);
-        let voxels = f64::from(low.voxels) + gap + f64::from(high.voxels);
-        bounded_length(
-            lattice,
-            voxels,
-            usize::from(low.reaches_side) + usize::from(high.reaches_side),
-        )
+        let parts = [&self.below, &self.above];
+        let [low, high] = parts.map(|part| part.column(at));
+        let at_sides = parts.map(|part| usize::from(part.column(at) == part.0[1].n));
+        let voxels = low as f64 + gap + high as f64;
+        bounded_length(lattice, voxels, at_sides.iter().sum())
     }
 }
 
@@ -120,37 +176,7 @@ fn bounded_length(lattice: &Lattice, voxels: f64, at_sides: usize) -> f64 {
     match (at_sides, lattice.boundary[1]) {
         (0, _) => voxels,
         (1, Boundary::Symmetry) => 2.0 * voxels,
-        _ => f64::from(LONGEST_CHORD),
+        _ => LONGEST_CHORD,
     }
-    .min(f64::from(LONGEST_CHORD))
-}
-
-/// Chord length along x (axis 0) or z (axis 1) through an open voxel of a layer.
-fn chord_in_layer(layer: &[u8], at: usize, axis: usize, lattice: &Lattice) -> u16 {
-    let size = lattice.layer_size();
-    let (stride, i) = ([1, size[0]][axis], [at % size[0], at / size[0]][axis]);
-    let start = at - i * stride;
-    let open = |i: usize| layer[start + i * stride] == OPEN;
-    chord_length(size[axis], lattice.boundary[2 * axis], open, i)
-}
-
-/// The run of open voxels around index `i` of a line of `n`, as start and end.
-fn open_run(n: usize, open: &impl Fn(usize) -> bool, i: usize) -> [usize; 2] {
-    let from = (0..i).rev().find(|&i| !open(i)).map_or(0, |wall| wall + 1);
-    let to = (i..n).find(|&i| !open(i)).unwrap_or(n);
-    [from, to]
-}
-
-/// Chord length through voxel `i` of a line of `n`: doubled at a mirror, joined across periodic sides.
-fn chord_length(n: usize, boundary: Boundary, open: impl Fn(usize) -> bool, i: usize) -> u16 {
-    let [from, to] = open_run(n, &open, i);
-    let (first, last, length) = (from == 0, to == n, to - from);
-    let length = match boundary {
-        _ if !first && !last => length,
-        Boundary::Symmetry if first != last => 2 * length,
-        Boundary::Periodic if first && !last => length + (n - open_run(n, &open, n)[0]),
-        Boundary::Periodic if last && !first => length + open_run(n, &open, 0)[1],
-        _ => usize::from(LONGEST_CHORD),
-    };
-    length.min(usize::from(LONGEST_CHORD)) as u16
+    .min(LONGEST_CHORD)
 }

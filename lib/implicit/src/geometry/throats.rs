@@ -51,7 +51,7 @@ impl ThroatView<'_> {
             return 0.0;
         };
         let axes = if self.lattice.flat { 2 } else { 3 };
-        let far = f64::from(LONGEST_CHORD);
+        let far = LONGEST_CHORD;
         let lengths = [0, 1, 2].map(|axis| match axis < axes {
             true => self.chords.length(self.lattice, address, axis, self.gap),
             false => far,
