@@ -1,6 +1,6 @@
 # What each effect is worth in a press of maple: hot press PF (1 MPa within 2 s, 5 min) on the acer piece of the tutorial, with cure and
 # loss of water; with trapped air, that and cure, these and loss of water, and all with menisci; then the paper's hurry (1 m/s to the
-# same pressure), without and with trapped air. A table; 1800 CPU seconds, 700 of them the row with menisci.
+# same pressure), without and with trapped air. A table; 1350 CPU seconds, 730 of them the row with menisci.
 PRESS_OUT := out/press
 ACER := pipelines/examples/acer/bondline-acer-64x192x128.tif
 
