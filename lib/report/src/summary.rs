@@ -38,7 +38,10 @@ fn pressed(runs: &[RunFolder]) -> String {
         }
     }
     let row = |(setup, labels): &(&Setup, Vec<&str>)| {
-        let kind = ["", " (synthetic)"][usize::from(!setup.synthetic.is_empty())];
+        let kind = match setup.synthetic.is_empty() {
+            true => "",
+            false => " (synthetic)",
+        };
         vec![
             labels.join(", "),
             format!("{}{kind}", setup.specimen),

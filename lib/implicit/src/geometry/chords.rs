@@ -163,11 +163,11 @@ impl Chords {
 
     /// Chord length along y through the gap at index `at` of the layers.
     fn length_through_gap(&self, lattice: &Lattice, at: usize, gap: f64) -> f64 {
-        let parts = [&self.below, &self.above];
-        let [low, high] = parts.map(|part| part.column(at));
-        let at_sides = parts.map(|part| usize::from(part.column(at) == part.0[1].n));
-        let voxels = low as f64 + gap + high as f64;
-        bounded_length(lattice, voxels, at_sides.iter().sum())
+        let [low, high] = [&self.below, &self.above].map(|part| {
+            let voxels = part.column(at);
+            (voxels, usize::from(voxels == part.0[1].n))
+        });
+        bounded_length(lattice, low.0 as f64 + gap + high.0 as f64, low.1 + high.1)
     }
 }
 
@@ -179,4 +179,26 @@ fn bounded_length(lattice: &Lattice, voxels: f64, at_sides: usize) -> f64 {
         _ => LONGEST_CHORD,
     }
     .min(LONGEST_CHORD)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against walls counted voxel by voxel, in lines of one to several words.
+    #[test]
+    fn runs_end_at_the_nearest_walls() {
+        for n in [1, 63, 64, 65, 128, 200] {
+            for wall in [2, 7, 61, 64, 127, 1000] {
+                let open = |_, i: usize| i % wall != wall - 1;
+                let lines = Lines::new(2, n, open);
+                for i in (0..n).filter(|&i| open(1, i)) {
+                    let from = (0..i).rev().find(|&i| !open(1, i)).map_or(0, |at| at + 1);
+                    let to = (i..n).find(|&i| !open(1, i)).unwrap_or(n);
+                    assert_eq!((lines.start(1, i), lines.end(1, i)), (from, to));
+                    assert!(to < n || lines.start(1, n) == from);
+                }
+            }
+        }
+    }
 }

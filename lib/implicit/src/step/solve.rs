@@ -69,18 +69,12 @@ impl Implicit {
                 .map(|lost| (viscosity_iteration.used).thickened(mesh, &self.edges, &lost.factor));
             let viscosities = thick.as_ref().unwrap_or(&viscosity_iteration.used);
             clock.add(Stage::Viscosity, begun);
-            let mut previous = take(&mut flow);
+            let previous = take(&mut flow);
             let surface = (&torn[..], air.as_ref());
             let holds;
             let driven = (middle, drive);
-            (flow, forces, holds) = self.solve_once(
-                driven,
-                &unknowns,
-                viscosities,
-                surface,
-                &mut previous,
-                clock,
-            )?;
+            (flow, forces, holds) =
+                self.solve_once(driven, &unknowns, viscosities, surface, previous, clock)?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;
@@ -152,7 +146,7 @@ impl Implicit {
         unknowns: &Unknowns,
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
-        start: &mut Flow,
+        mut start: Flow,
         clock: &mut Clock,
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
@@ -192,8 +186,15 @@ impl Implicit {
                 *excess_rate += exchange.gained[pore] / dt;
             }
         }
-        let flow = solve(&problem, excess_rate, drive, start, &self.solver, clock)
-            .map_err(|error| self.unsolved(&error))?;
+        let flow = solve(
+            &problem,
+            excess_rate,
+            drive,
+            &mut start,
+            &self.solver,
+            clock,
+        )
+        .map_err(|error| self.unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());
         let holds = compression.obeys_law(&unknowns.pores, &start.pressure, &flow.pressure);

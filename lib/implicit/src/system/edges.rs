@@ -32,15 +32,16 @@ impl Edge {
         if self.shared < 0 {
             (low, high) = (high, low);
         }
-        [(low.low, high.low), (low.high, high.high)].map(|(low, high)| {
-            let mut faces = mesh.faces_of(mesh.cell(low as usize), self.t.into());
-            match faces.len() {
-                1 => faces.start,
-                _ => (faces
-                    .find(|&face| mesh.faces[face].pores() == [low, high].map(|p| p as usize)))
-                .unwrap_or(face),
+        let joined = |low: u32, high: u32| {
+            let (low, high, t) = (low as usize, high as usize, self.t.into());
+            // Most cells have one face along an axis.
+            match mesh.faces_of(mesh.cell(low), t) {
+                faces if faces.len() == 1 => faces.start,
+                _ => (mesh.face_between(low, high, t))
+                    .expect("an edge joins the pores on its two sides"),
             }
-        })
+        };
+        [joined(low.low, high.low), joined(low.high, high.high)]
     }
 
     /// Shear rate at the edge by the face velocities `u`.

@@ -1,4 +1,4 @@
-//! Friction of the liquid at a piston on the walls beside it (docs/methods.md section 3.5).
+//! Friction of a piston's liquid (docs/methods.md section 3.5).
 
 use super::assembly::Problem;
 use crate::geometry::{MIRROR, OPEN};
@@ -14,8 +14,8 @@ pub(super) struct PistonFriction {
 }
 
 impl Problem<'_> {
-    /// Visits the friction beside walls normal to y that move along others, as a piston in a lumen: of the liquid between
-    /// such a wall and the middle of its pore, which has the velocity of the wall.
+    /// Visits the friction of the half pores at a piston, a wall normal to y that moves along the walls beside it. Liquid
+    /// there moves with the piston.
     pub(super) fn piston_friction(&self, mut add: impl FnMut(PistonFriction)) {
         let (mesh, lattice) = (self.mesh, self.lattice);
         // Without walls in the gap none moves along another.

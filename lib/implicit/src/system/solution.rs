@@ -65,8 +65,8 @@ impl Flow {
     }
 }
 
-/// Solves a problem from the flow `start`, whose velocities are freed: memory peaks in the solver. `excess_rate` is the excess of the liquid in each pore with a pressure over the
-/// pore's volume, per time.
+/// Solves a problem from the flow `start`, whose velocities are freed, for memory peaks in the solver. `excess_rate` is the
+/// excess of the liquid in each pore with a pressure over the pore's volume, per time.
 pub(crate) fn solve(
     problem: &Problem,
     excess_rate: Vec<f64>,

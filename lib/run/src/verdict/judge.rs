@@ -62,7 +62,7 @@ pub(crate) fn judge(
     }
     if found.crowded > MOST_CROWDED {
         reasons.push(format!(
-            "there is no room for it where {:.1} % of the liquid lies: more than one and a half times the volume of blocks with edges of two cells",
+            "{:.1} % of the liquid has no room: it fills blocks with edges of two cells more than one and a half times",
             100.0 * found.crowded
         ));
     }
@@ -168,7 +168,7 @@ mod tests {
                 |l| l.volume.iter_mut().for_each(|v| *v *= 1.01),
                 "differs by +1.00 %",
             ),
-            (|l| l.position = vec![l.position[0]; 32], "no room for it"),
+            (|l| l.position = vec![l.position[0]; 32], "has no room"),
             (|l| l.position.truncate(31), "31 remain and 0 left"),
         ];
         for (change, wanted) in cases {

@@ -89,11 +89,11 @@ impl Course {
 /// The press `shape` at both Courant numbers, run in `folder`.
 pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result<Row> {
     let name = format!("{}-{pressure}-{viscosity}", shape.name.replace(' ', "-"));
-    let (text, case) = (
-        shape.case(pressure, viscosity),
-        folder.join(format!("{name}.toml")),
-    );
-    write(&case, text.text(Scheme::Implicit.integrator()))?;
+    let text = shape
+        .case(pressure, viscosity)
+        .text(Scheme::Implicit.integrator());
+    let case = folder.join(format!("{name}.toml"));
+    write(&case, text)?;
     let course = |cfl: f64| {
         let method = Method::implicit().setting(format!("integrator.cfl={cfl}"));
         let run = method.run(&case, &folder.join(format!("{name}-{cfl}")), &[])?;
