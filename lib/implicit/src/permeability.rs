@@ -169,7 +169,6 @@ impl Through {
             // A tiny compressibility fixes the mean pressure, which is otherwise undetermined.
             c: &vec![TOLERANCE * TOLERANCE; p.len()],
             friction: &friction,
-            two_eta: &vec![2.0; p.len()],
             b: &driving,
             standing: &[],
             clinging: &[],

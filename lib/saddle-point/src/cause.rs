@@ -16,13 +16,13 @@ pub enum Cause {
     /// Large viscosity times compressibility.
     #[error("viscosity times compressibility is {ratio:.0e}")]
     Stiff {
-        /// eta/(K dt), the largest 2 eta C.
+        /// eta/(K dt), the largest C times the largest coupling of two velocities.
         ratio: f64,
     },
     /// Large inertia over viscosity.
     #[error("inertia and friction are {ratio:.0e} times the viscosity")]
     Inertial {
-        /// rho h^2/(eta dt), the largest D_B over the largest 2 eta.
+        /// rho h^2/(eta dt), the largest D_B over the largest coupling of two velocities.
         ratio: f64,
     },
     /// None of these.
@@ -60,9 +60,9 @@ pub(crate) fn with_cause(error: SolveError, system: &SaddleSystem) -> SolveError
 
 fn cause(system: &SaddleSystem) -> Cause {
     let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
-    let inertia = most(system.friction) / most(system.two_eta);
-    let stiffness = system.c.iter().zip(system.two_eta).map(|(c, eta)| c * eta);
-    let stiffness = stiffness.fold(0.0, f64::max);
+    let two_eta = system.a.largest_coupling();
+    let inertia = most(system.friction) / two_eta;
+    let stiffness = most(system.c) * two_eta;
     if let Some(cells) = unbalanced(system) {
         Cause::Unbalanced { cells }
     } else if stiffness > STIFF {
@@ -109,16 +109,22 @@ mod tests {
     use super::*;
     use crate::{Csr, VelocityBlock};
 
-    /// Applies `said` to a closed system of two cells and the face between them, with given friction, compressibility and
-    /// unbalanced source.
+    /// Applies `said` to a closed system of two cells and the two faces between them, with given friction, compressibility
+    /// and unbalanced source.
     fn of<T>([friction, c, left]: [f64; 3], said: impl Fn(&SaddleSystem) -> T) -> T {
-        let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0)).unwrap();
-        let pair = Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell]));
+        let a = VelocityBlock::assemble(2, |face, entries| {
+            entries.add(face, 4.0);
+            entries.add(1 - face, -1.0);
+        });
+        let a = a.unwrap();
+        let pair = Csr::assemble(2, 2, |cell, entries| {
+            (0..2).for_each(|face| entries.add(face, [1.0, -1.0][cell]));
+        });
         said(&SaddleSystem {
             c: &[c; 2],
-            friction: &[friction],
+            friction: &[friction; 2],
             volume_source: &[0.5, -0.5 + left],
-            ..SaddleSystem::still(&one, &pair.unwrap(), &[1.0; 2], &[0.0; 2])
+            ..SaddleSystem::still(&a, &pair.unwrap(), &[1.0; 2], &[0.0; 2])
         })
     }
 

@@ -23,7 +23,6 @@ mod schur;
 mod sealed;
 mod simd;
 mod system;
-mod vanka;
 mod vector;
 mod velocity_block;
 

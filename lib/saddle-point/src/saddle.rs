@@ -26,8 +26,8 @@ impl SaddleSolver {
 
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per cell), which receive the
     /// solution. The preconditioner is block lower triangular: a Chebyshev polynomial in `A` for the velocities, then a
-    /// multigrid cycle of the friction Poisson operator plus local viscosity for the pressures. A Vanka sweep over the cells
-    /// couples both. Results do not depend on the number of threads.
+    /// multigrid cycle of the friction Poisson operator plus a diagonal for the pressures. Results do not depend on the number
+    /// of threads.
     ///
     /// # Errors
     /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,

@@ -7,12 +7,9 @@ use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
 use crate::vector::{Real, Work, for_each};
 
-/// `2 eta` times the response `sum g^2/A_ff` of a full cell's faces: six of area one, with `A_ff = 8 eta`.
-const FULL_CELL: f64 = 1.5;
-
 /// `S^-1 ~ E + (G D_B^-1 G^T + C)^-1`, after Cahouet & Chabard (1988, Int. J. Numer. Meth. Fluids 8, 869-895), with Darcy
-/// friction joined to inertia. The viscous part is the local viscosity, `E = 2 eta`, or less in cells whose fluxes respond
-/// more than those of a full cell. The part of inertia and lumen friction `D_B` is one multigrid cycle.
+/// friction joined to inertia. The part of inertia and lumen friction `D_B` is one multigrid cycle. `E`, which stands for the
+/// viscosity around a cell, is what that part lacks of the response of a single cell.
 pub(crate) struct Schur {
     amg: Amg,
     /// Sealed pockets, whose mean pressures are not changed here.
@@ -32,7 +29,7 @@ impl Schur {
         Ok(Self {
             amg: Amg::new(&matrix)?,
             sealed: Sealed::find(&matrix, system.c),
-            viscous: viscous_part(system),
+            viscous: viscous_part(system, &weight),
             friction_part: vec![0.0; system.g.n_rows()],
         })
     }
@@ -61,33 +58,21 @@ fn with_positive_couplings_lumped(matrix: &Csr<f64>) -> Result<Csr<f64>, SolveEr
     })
 }
 
-/// The diagonal `E`.
-fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
-    let diagonal: Vec<f64> = system.a.diagonal().collect();
-    let part = |(cell, two_eta): (usize, &f64)| {
+/// The diagonal `E = diag(G D^-1 G^T + C)^-1 - diag(G D_B^-1 G^T + C)^-1`, at least 0, with the diagonal `D` of `A`. `mobility`
+/// is `D_B^-1`.
+fn viscous_part(system: &SaddleSystem, mobility: &[f64]) -> Vec<Work> {
+    let diagonal: Vec<f64> = system.a.diagonal().map(|d| 1.0 / d).collect();
+    let part = |cell: usize| {
         let (faces, areas) = system.g.row(cell);
-        let response: f64 = (faces.iter().zip(areas))
-            .map(|(&face, area)| area * area / diagonal[face as usize])
-            .sum();
-        // Without faces the response is -0, the empty sum.
-        let full = if response > 0.0 {
-            FULL_CELL / response
-        } else {
-            *two_eta
+        let stiffness = |weight: &[f64]| {
+            let terms = (faces.iter().zip(areas)).map(|(&face, a)| a * a * weight[face as usize]);
+            terms.fold(system.c[cell], |sum, term| sum + term)
         };
-        let viscous = two_eta.min(full);
-        if cell < system.cells() {
-            return Work::nearest(viscous);
-        }
-        // The gas of a pocket is softer than the liquid around it: take what the friction part lacks of 1/S.
-        let friction: f64 = (faces.iter().zip(areas))
-            .map(|(&face, area)| area * area / system.friction[face as usize])
-            .sum();
-        let c = system.c[cell];
-        let whole = 1.0 / (c + 1.0 / (viscous + 1.0 / friction));
-        Work::nearest(whole - 1.0 / (c + friction))
+        let lacking = 1.0 / stiffness(&diagonal) - 1.0 / stiffness(mobility);
+        // Not a number in a cell without faces and compressibility: 0.
+        Work::nearest(lacking.max(0.0))
     };
-    system.two_eta.iter().enumerate().map(part).collect()
+    (0..system.g.n_rows()).map(part).collect()
 }
 
 /// `G W G^T + C`.
@@ -108,4 +93,34 @@ fn friction_poisson(
             }
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::VelocityBlock;
+
+    /// A pressure in a single cell moves its faces by A alone, whatever friction says, if that allows less; else by friction.
+    #[test]
+    fn a_single_cell_responds_by_the_diagonal() {
+        let a = VelocityBlock::assemble(2, |face, row| row.add(face, [4.0, 8.0][face])).unwrap();
+        let g = Csr::assemble(1, 2, |_, row| (0..2).for_each(|face| row.add(face, 0.5)));
+        let g = g.unwrap();
+        let response = |friction: f64| {
+            let system = SaddleSystem {
+                c: &[0.1],
+                friction: &[friction; 2],
+                ..SaddleSystem::still(&a, &g, &[1.0; 2], &[0.0; 2])
+            };
+            let (mut r, mut p) = ([1.0], [0.0]);
+            let schur = Schur::new(&system, &g.transpose());
+            schur.unwrap().apply_negative(&mut r, &mut p);
+            f64::from(p[0])
+        };
+        let by_diagonal = -1.0 / (0.1 + 0.25 / 4.0 + 0.25 / 8.0);
+        for friction in [1e-3, 1.0, 5.0] {
+            assert!((response(friction) / by_diagonal - 1.0).abs() < 1e-5);
+        }
+        assert!((response(50.0) * (0.1 + 0.5 / 50.0) + 1.0).abs() < 1e-5);
+    }
 }

@@ -25,8 +25,6 @@ pub struct SaddleSystem<'a> {
     /// that slip count less, frictionless ones not at all: with their widths included the
     /// iterations double.
     pub friction: &'a [f64],
-    /// Twice the viscosity of every cell, not multiplied by its volume.
-    pub two_eta: &'a [f64],
     /// Momentum right-hand side `b`, one per face.
     pub b: &'a [f64],
     /// Standing forces: the part of `b` due to weight, air and menisci, which pressures of the liquid nearly balance; empty if
@@ -129,7 +127,6 @@ impl SaddleSystem<'_> {
             ("columns of the flux operator", self.g.n_columns(), faces),
             ("compressibilities", self.c.len(), cells),
             ("face frictions", self.friction.len(), faces),
-            ("cell viscosities", self.two_eta.len(), cells),
             ("momentum right-hand side", self.b.len(), faces),
             (
                 "standing forces",
@@ -161,13 +158,12 @@ impl SaddleSystem<'_> {
                 return Err(SolveError::NotFinite { row });
             }
         }
-        for (what, values) in [("friction", self.friction), ("viscosity", self.two_eta)] {
-            if let Some(at) = values.iter().position(|v| !(*v > 0.0 && v.is_finite())) {
-                return Err(SolveError::Matrix(format!(
-                    "{what} {} at index {at}; it must be positive and finite",
-                    values[at]
-                )));
-            }
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if let Some(face) = self.friction.iter().position(|&v| !positive(v)) {
+            return Err(SolveError::Matrix(format!(
+                "friction {} at face {face}; it must be positive and finite",
+                self.friction[face]
+            )));
         }
         Ok(())
     }
@@ -192,7 +188,6 @@ impl<'a> SaddleSystem<'a> {
             slow: 0.0,
             c: &zeros[..cells],
             friction: ones,
-            two_eta: &ones[..cells],
             b: &zeros[..faces],
             volume_source: &zeros[..cells],
             carried: &zeros[..cells],

@@ -51,6 +51,16 @@ impl VelocityBlock {
         self.root.len()
     }
 
+    /// The largest entry off the diagonal: twice the largest viscosity, without walls and inertia.
+    pub(crate) fn largest_coupling(&self) -> f64 {
+        let root = &self.root;
+        let entries = |row: usize| {
+            let entries = self.matrix.row(row).filter(|&(_, entry)| entry != 0.0);
+            entries.map(move |(column, entry)| entry.abs() * root[row] * root[column])
+        };
+        (0..self.n_rows()).flat_map(entries).fold(0.0, f64::max)
+    }
+
     /// `D`.
     pub(crate) fn diagonal(&self) -> impl Iterator<Item = f64> {
         self.root.iter().map(|root| root * root)

@@ -10,9 +10,8 @@ use super::solution::{Drive, Flow};
 pub(super) struct Equations {
     a: VelocityBlock,
     g: Csr<f64>,
-    /// Diagonal of C, the compressibility of each pore and pocket, and twice the viscosity of each.
+    /// Diagonal of C, the compressibility of each pore and pocket.
     c: Vec<f64>,
-    two_eta: Vec<f64>,
     /// `D_B` of each face (docs/methods.md section 3.6).
     friction: Vec<f64>,
     /// Momentum right-hand sides: all of them, those per closing speed, the static ones, and those that only make liquid
@@ -64,7 +63,6 @@ impl Equations {
                 let end = problem.mesh.volume_at(pore, problem.end_height);
                 end * coefficients.compressibility / coefficients.dt
             }),
-            two_eta: of_pores(&|pore| 2.0 * problem.viscosities.pores[pore]),
             friction: (unknowns.faces.par_iter())
                 .map(|&face| resistance(problem, face as usize))
                 .collect(),
@@ -94,7 +92,6 @@ impl Equations {
     /// Adds pockets of air. The unknown of a pocket is its pressure less that of its tangent, which the fronts already
     /// apply: with the full pressure as the unknown, the terms of a soft pocket would outweigh all others.
     fn add_pockets(&mut self, problem: &Problem) {
-        let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
         let dt = problem.coefficients.dt;
         for pocket in problem.pockets {
             let (pores, tangent) = (pocket.pores.iter(), pocket.tangent);
@@ -103,7 +100,6 @@ impl Equations {
             self.known_body_force += closing * tangent.pressure;
             self.c.push(tangent.compliance / dt);
             self.excess_rate.push((tangent.volume - pocket.volume) / dt);
-            self.two_eta.push(thickest);
         }
     }
 
@@ -115,7 +111,6 @@ impl Equations {
             pockets: problem.pockets.len(),
             c: &self.c,
             friction: &self.friction,
-            two_eta: &self.two_eta,
             b: &self.known,
             standing: &self.standing,
             clinging: &self.clinging,

@@ -74,8 +74,6 @@ pub struct Case {
     pub bulk_modulus: f64,
     /// Whether the liquid sticks to the walls.
     pub friction: bool,
-    /// Open height of the cells in front of the closing body, as a fraction of a cell.
-    pub sliver: f64,
 }
 
 impl Default for Case {
@@ -88,7 +86,6 @@ impl Default for Case {
             contrast: 1.0,
             bulk_modulus: 1e9,
             friction: true,
-            sliver: 1.0,
         }
     }
 }
@@ -126,12 +123,6 @@ impl Case {
         self.contrast.powf(exponent)
     }
 
-    /// Open fraction of a cell.
-    fn open(&self, at: Point) -> f64 {
-        let cut = at[1] + 1 == self.gap().end && self.at(shift(at, 1, 1)) == Cell::Top;
-        if cut { self.sliver } else { 1.0 }
-    }
-
     /// The liquid cells on both sides of a face.
     fn sides(&self, (axis, at): Face) -> impl Iterator<Item = Point> {
         let sides = [shift(at, axis, -1), at].into_iter();
@@ -140,9 +131,8 @@ impl Case {
 
     /// Liquid of a face, and that times its viscosity.
     fn liquid(&self, face: Face) -> [f64; 2] {
-        let half = |at: Point| 0.5 * self.open(at);
-        let viscous = self.sides(face).map(|at| half(at) * self.viscosity(at));
-        [self.sides(face).map(half).sum(), viscous.sum()]
+        let viscous = self.sides(face).map(|at| 0.5 * self.viscosity(at));
+        [0.5 * self.sides(face).count() as f64, viscous.sum()]
     }
 
     /// Velocity of a closed face: that of the upper block where it touches it.
@@ -225,9 +215,8 @@ impl Stokes {
             g: Csr::assemble(cells, n, |cell, entries| {
                 self.flux_row(self.cells[cell], entries);
             })?,
-            c: of_cells(&|at| compressibility * case.open(at)),
+            c: vec![compressibility; cells],
             friction: self.faces.iter().map(|&face| case.friction(face)).collect(),
-            two_eta: of_cells(&|at| 2.0 * case.viscosity(at)),
             b: (self.faces.iter())
                 .map(|&face| self.momentum_row(face, &mut none()))
                 .collect(),
@@ -255,7 +244,7 @@ impl Stokes {
             }
         };
         for cell in case.sides(face) {
-            let stiffness = 2.0 * case.viscosity(cell) * case.open(cell);
+            let stiffness = 2.0 * case.viscosity(cell);
             add(stiffness, &[(axis, cell), (axis, shift(cell, axis, 1))]);
         }
         for tangent in (0..3).filter(|&t| t != axis) {
@@ -310,11 +299,9 @@ impl Stokes {
         let mut source = 0.0;
         for axis in 0..3 {
             for (position, sign) in [(at, -1.0), (shift(at, axis, 1), 1.0)] {
-                let below = shift(position, axis, -1);
-                let open = |at: Point| if axis == 1 { 1.0 } else { self.case.open(at) };
                 match self.unknown((axis, position)) {
                     NONE => source -= sign * self.case.closed_velocity((axis, position)),
-                    id => entries.add(id as usize, sign * open(position).min(open(below))),
+                    id => entries.add(id as usize, sign),
                 }
             }
         }

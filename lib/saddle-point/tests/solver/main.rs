@@ -20,7 +20,6 @@ const SMALL: Case = Case {
     contrast: 1.0,
     bulk_modulus: 1e9,
     friction: true,
-    sliver: 1.0,
 };
 
 const MEDIUM: Case = Case {
