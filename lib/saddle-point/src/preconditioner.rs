@@ -62,10 +62,6 @@ impl Precondition for Preconditioner<'_> {
         self.schur.apply_negative(&mut self.volume, pressure);
     }
 
-    fn strengthen(&mut self) -> bool {
-        self.chebyshev.widen()
-    }
-
     fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool {
         let (faces, sealed) = (self.g.n_columns(), self.sealed());
         sealed.add_mean_pressures(&r[faces..], &mut x[faces..]);
@@ -75,9 +71,9 @@ impl Precondition for Preconditioner<'_> {
 
 /// Mean width of the channels, cells: their volume over half the area of their walls, the closed sides of cells.
 fn mean_width(system: &SaddleSystem) -> f64 {
-    let sides = |cell: usize| system.g.row(cell).0.len();
-    let walls: usize = (0..system.cells())
-        .map(|cell| 6usize.saturating_sub(sides(cell)))
-        .sum();
+    let sides = || (0..system.cells()).map(|cell| system.g.row(cell).0.len());
+    // Four in plane strain. A cell with several neighbours at one side has more.
+    let all = sides().max().unwrap_or(0).min(6);
+    let walls: usize = sides().map(|open| all.saturating_sub(open)).sum();
     (2.0 * system.cells() as f64 / walls as f64).max(1.0)
 }
