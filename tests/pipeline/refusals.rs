@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use crate::verdicts;
 use crate::workbench::{ADHESIVE, CASE, TOOLS, VOID, WOOD, Workbench, grooved, npy, said};
 
 /// Command lines, the exit status of each, and parts of the one sentence it must say.
@@ -42,6 +43,8 @@ fn bench() -> Workbench {
     );
     bench.damage("bond.mpts", "payload.mpts", 3000);
     bench.write("overlap.toml", CASE.to_owned() + OVERLAP);
+    bench.write("boxes.toml", verdicts::SMALL);
+    bench.done("mpm-run -q boxes.toml -o boxes");
     for (name, from, to) in [
         ("unknown.toml", "cell = ", "cel = "),
         ("unitless.toml", "\"300 cP\"", "\"300\""),

@@ -60,7 +60,13 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         if arguments.series {
             let state = input.state(arguments.normal)?;
             let fail = |error| input.failure(&error);
-            let middle = Datum::find(Reference::Mid, &state).map_err(fail)?;
+            let middle = Datum::find(Reference::Mid, &state).map_err(|error| match error {
+                metrics::Error::Usage(_) => Failure::usage(format!(
+                    "'{}' has no gap between two adherends, which --series follows; leave out --series",
+                    path.display()
+                )),
+                _ => fail(error),
+            })?;
             let sealed = Sealed::of(&state, &middle);
             // Older states do not note what left.
             let left = input.noted("left_through_open_sides").unwrap_or(0.0);
