@@ -24,6 +24,7 @@ mod refusals;
 mod repeatability;
 mod report;
 mod run_folder;
+mod slow_modes;
 mod stale;
 mod started;
 mod sweep;

@@ -9,7 +9,7 @@ use crate::vector::{Real, Work, for_each};
 
 /// `S^-1 ~ E + (G D_B^-1 G^T + C)^-1`, after Cahouet & Chabard (1988, Int. J. Numer. Meth. Fluids 8, 869-895), with Darcy
 /// friction joined to inertia. The part of inertia and lumen friction `D_B` is one multigrid cycle. `E`, which stands for the
-/// viscosity around a cell, is what that part lacks of the response of a single cell.
+/// viscosity around a cell, is what that part lacks of the inverse diagonal.
 pub(crate) struct Schur {
     amg: Amg,
     /// Sealed pockets, whose mean pressures are not changed here.
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
     use crate::VelocityBlock;
 
-    /// A pressure in a single cell moves its faces by A alone, whatever friction says, if that allows less; else by friction.
+    /// The response of a single cell is that of the diagonal of A if that resists more than friction, else that of friction.
     #[test]
     fn a_single_cell_responds_by_the_diagonal() {
         let a = VelocityBlock::assemble(2, |face, row| row.add(face, [4.0, 8.0][face])).unwrap();

@@ -51,7 +51,7 @@ impl VelocityBlock {
         self.root.len()
     }
 
-    /// The largest entry off the diagonal: twice the largest viscosity, without walls and inertia.
+    /// The largest entry off the diagonal, by viscosity alone: in wholly open cells twice the largest; 0 without couplings.
     pub(crate) fn largest_coupling(&self) -> f64 {
         let root = &self.root;
         let entries = |row: usize| {
