@@ -61,7 +61,10 @@ pub(crate) fn with_cause(error: SolveError, system: &SaddleSystem) -> SolveError
 fn cause(system: &SaddleSystem) -> Cause {
     let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
     let two_eta = system.a.largest_coupling();
-    let inertia = most(system.friction) / two_eta;
+    let inertia = match two_eta {
+        0.0 => 0.0,
+        two_eta => most(system.friction) / two_eta,
+    };
     let stiffness = most(system.c) * two_eta;
     if let Some(cells) = unbalanced(system) {
         Cause::Unbalanced { cells }
