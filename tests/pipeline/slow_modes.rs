@@ -1,4 +1,4 @@
-//! Flows whose slowest modes lie far below the usual interval of the solver's polynomial.
+//! Flows with modes that decay far more slowly than the width of their channels suggests: the linear solver must allow for them.
 
 use crate::workbench::Workbench;
 

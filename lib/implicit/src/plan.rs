@@ -11,7 +11,7 @@ const SPEED_RATIO: f64 = 1.8;
 /// Processor seconds per unknown and step, as measured with 70 to 700 thousand unknowns.
 const CPU_S_PER_UNKNOWN: f64 = 4e-6;
 /// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the domain (pores, faces, friction of walls), per voxel
-/// (codes, what measures the bond), and of the process. Within a seventh with 9 to 290 thousand unknowns; with 3 million, the
+/// (codes, what measures the bond), and of the process. Within a fifth with 9 to 290 thousand unknowns; with 3 million, the
 /// first steps take a quarter less.
 const BYTES: [f64; 4] = [440.0, 20.0, 6.0, 10e6];
 

@@ -60,12 +60,12 @@ pub(crate) fn with_cause(error: SolveError, system: &SaddleSystem) -> SolveError
 
 fn cause(system: &SaddleSystem) -> Cause {
     let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
-    let two_eta = system.a.largest_coupling();
-    let inertia = match two_eta {
+    let coupling = system.a.largest_coupling();
+    let inertia = match coupling {
         0.0 => 0.0,
-        two_eta => most(system.friction) / two_eta,
+        coupling => most(system.friction) / coupling,
     };
-    let stiffness = most(system.c) * two_eta;
+    let stiffness = most(system.c) * coupling;
     if let Some(cells) = unbalanced(system) {
         Cause::Unbalanced { cells }
     } else if stiffness > STIFF {

@@ -64,11 +64,11 @@ fn viscous_part(system: &SaddleSystem, mobility: &[f64]) -> Vec<Work> {
     let diagonal: Vec<f64> = system.a.diagonal().map(|d| 1.0 / d).collect();
     let part = |cell: usize| {
         let (faces, areas) = system.g.row(cell);
-        let stiffness = |weight: &[f64]| {
+        let response = |weight: &[f64]| {
             let terms = (faces.iter().zip(areas)).map(|(&face, a)| a * a * weight[face as usize]);
             terms.fold(system.c[cell], |sum, term| sum + term)
         };
-        let lacking = 1.0 / stiffness(&diagonal) - 1.0 / stiffness(mobility);
+        let lacking = 1.0 / response(&diagonal) - 1.0 / response(mobility);
         // Not a number in a cell without faces and compressibility: 0.
         Work::nearest(lacking.max(0.0))
     };

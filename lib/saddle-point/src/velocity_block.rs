@@ -51,7 +51,8 @@ impl VelocityBlock {
         self.root.len()
     }
 
-    /// The largest entry off the diagonal, by viscosity alone: in wholly open cells twice the largest; 0 without couplings.
+    /// The largest entry off the diagonal, which is twice the largest viscosity: walls and inertia are on the diagonal. 0 if there
+    /// is none.
     pub(crate) fn largest_coupling(&self) -> f64 {
         let root = &self.root;
         let entries = |row: usize| {

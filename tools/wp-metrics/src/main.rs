@@ -14,10 +14,14 @@ use cli::{Failure, InputRecord, Output, Record};
 use input::Input;
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Adhesive, Datum, DepthLayer, Map, Reference, Sealed, Side, bond_line, compare, depth_profile,
-    penetration,
+    Adhesive, Datum, DepthLayer, Map, Reference, Sealed, Side, Wood, bond_line, compare,
+    depth_profile, penetration,
 };
 use particle_file::Kind;
+
+/// What a series needs that a scene of boxes lacks.
+const NO_GAP: &str =
+    "there is no gap between two adherends, which --series follows; leave out --series";
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
@@ -61,10 +65,9 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let state = input.state(arguments.normal)?;
             let fail = |error| input.failure(&error);
             let middle = Datum::find(Reference::Mid, &state).map_err(|error| match error {
-                metrics::Error::Usage(_) => Failure::usage(format!(
-                    "'{}' has no gap between two adherends, which --series follows; leave out --series",
-                    path.display()
-                )),
+                metrics::Error::Usage(_) if matches!(state.wood, Wood::None) => {
+                    fail(metrics::Error::Usage(NO_GAP.to_owned()))
+                }
                 _ => fail(error),
             })?;
             let sealed = Sealed::of(&state, &middle);
