@@ -129,34 +129,26 @@ pub(crate) struct Bordered<'a, 'b> {
     column: Vec<Work>,
     response: Vec<Work>,
     pocket_response: PocketResponse,
-    /// d times the square of the weight.
-    resistance: f64,
     pivot: f64,
 }
 
 impl<'a, 'b> Bordered<'a, 'b> {
     pub(crate) fn new(inner: &'b mut Preconditioner<'a>, load: &Load, weight: f64) -> Self {
         let source: Vec<f64> = load.source.iter().map(|s| weight * s).collect();
-        let mut bordered = Self {
-            faces: load.momentum.len(),
-            column: load.column(weight),
-            response: Vec::new(),
-            pocket_response: inner.sealed().response_to(&source),
-            resistance: weight * weight * load.resistance,
-            pivot: 0.0,
-            inner,
-        };
-        bordered.update_response();
-        bordered
-    }
-
-    /// Computes the response z to the column, and the pivot.
-    fn update_response(&mut self) {
-        self.inner.apply(&self.column, &mut self.response);
+        let (column, mut response) = (load.column(weight), Vec::new());
+        inner.apply(&column, &mut response);
+        let pocket_response = inner.sealed().response_to(&source);
         // Positive if the preconditioner is close enough to the system, which resists motion.
-        let pivot =
-            self.resistance - dot(&self.column, &self.response) + self.pocket_response.resistance();
-        self.pivot = pivot.abs().max(f64::MIN_POSITIVE);
+        let pivot = weight * weight * load.resistance - dot(&column, &response)
+            + pocket_response.resistance();
+        Self {
+            inner,
+            faces: load.momentum.len(),
+            column,
+            response,
+            pocket_response,
+            pivot: pivot.abs().max(f64::MIN_POSITIVE),
+        }
     }
 }
 
@@ -175,14 +167,6 @@ impl Precondition for Bordered<'_, '_> {
             &mut z[faces..],
         );
         z.push(Work::nearest(speed));
-    }
-
-    fn strengthen(&mut self) -> bool {
-        let stronger = self.inner.strengthen();
-        if stronger {
-            self.update_response();
-        }
-        stronger
     }
 
     /// Adds the mean pressures of sealed pockets and the speed: beside them, the rest would be lost in single precision.
