@@ -41,16 +41,18 @@ pub fn main<A: Parser + CommandFactory>(
     common: fn(&A) -> &Common,
     run: fn(A) -> Result<(), Failure>,
 ) -> ExitCode {
-    let tool = A::command().get_name().to_owned();
-    if let Some(what) = requested_generation(&A::command()) {
-        return match generate::<A>(&what) {
+    let command = with_exit_status(A::command());
+    let tool = command.get_name().to_owned();
+    if let Some(what) = requested_generation(&command) {
+        return match generate(command, &what) {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => failure.report(&tool),
         };
     }
-    let arguments = match A::try_parse() {
+    let parsed = command.clone().try_get_matches();
+    let arguments = match parsed.and_then(|matches| A::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
-        Err(error) => return usage(&error, &tool),
+        Err(error) => return usage(&error.format(&mut command.clone()), &tool),
     };
     signals::catch_file_limit();
     signals::catch_abort();
@@ -60,6 +62,18 @@ pub fn main<A: Parser + CommandFactory>(
         Err(failure) => failure.report(&tool),
     }
 }
+
+/// Adds the exit status to the help of a command whose help does not have it.
+fn with_exit_status(command: clap::Command) -> clap::Command {
+    let own = command.get_after_help().map_or(String::new(), |help| help.to_string());
+    match own.contains("Exit status:") {
+        true => command,
+        false => command.after_help(format!("{own}\n\n{EXIT_STATUS}").trim_start().to_owned()),
+    }
+}
+
+const EXIT_STATUS: &str =
+    "Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or damaged data, or too little memory.";
 
 /// `--generate WHAT` must work without the tool's required arguments, so it is looked for
 /// before the real parse; a wrong WHAT is left to that parse to refuse.
@@ -76,10 +90,10 @@ fn requested_generation(command: &clap::Command) -> Option<String> {
 
 const MAN: &str = "man";
 
-fn generate<A: CommandFactory>(what: &str) -> Result<(), Failure> {
+fn generate(command: clap::Command, what: &str) -> Result<(), Failure> {
     let shell = Shell::from_str(what, true);
     // Pages refer to pages; of `help` there is none.
-    let mut command = A::command().disable_help_subcommand(shell.is_err());
+    let mut command = command.disable_help_subcommand(shell.is_err());
     let name = command.get_name().to_owned();
     let mut text = Vec::new();
     match shell {

@@ -204,6 +204,16 @@ mod tests {
         }
     }
 
+    #[test]
+    fn every_column_is_documented() {
+        let document = include_str!("../../../docs/run-folder.md");
+        for columns in [COMMON_COLUMNS, CURE_COLUMN, WATER_COLUMNS, STAGE_COLUMN] {
+            for column in columns.split(',').filter(|column| !column.is_empty()) {
+                assert!(document.contains(&format!("`{column}`")), "{column}");
+            }
+        }
+    }
+
     /// A last row cut off in its first field could be taken for the row of an earlier step.
     #[test]
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {

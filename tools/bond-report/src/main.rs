@@ -20,9 +20,7 @@ use report::{Error, Labelled, Report, RunFolder, measured, picture, scene, table
 The page begins with a summary: specimen, adhesive and press; weighted penetration by side, with its error if the run folder \
 has a wp.csv of wp-metrics --finer; whether the bond closed; the first two pictures; caveats. Then come tables with rounded \
 numbers, the other pictures, states in 3D (only the middle of states of more than 700 000 voxels), and for each run its \
-parameters, expected error, effects left out, cost and provenance.
-
-Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt data."
+parameters, expected error, effects left out, cost and provenance."
 )]
 struct Arguments {
     /// Title of the page

@@ -32,11 +32,11 @@ Options of the explicit scheme beyond the paper's, off unless given \
 (docs/results/explicit-options.md):
   integrator.pressure = \"cell-mean\"            pressure from the mean of a cell
   integrator.density_projection = \"0.04 cell\"  uniform density restored every 0.04 cell of motion
-  contact.separation = \"0.8 cell\"              distance at which liquid and wall touch
+  contact.separation = \"0.7 cell\"              distance at which liquid and wall touch
 
 Exit status: 0 the results are sound; 1 the run failed (unstable, not sound, cannot write); \
-2 usage or case file; 3 unreadable or corrupt data; 75 stopped early (SIGINT, SIGTERM, \
-SIGUSR1, SIGUSR2, SIGXCPU, or SIGHUP without nohup), continue with --resume."
+2 usage or case file; 3 unreadable or damaged data, or too little memory; 75 stopped early \
+(SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, or SIGHUP without nohup), continue with --resume."
 )]
 struct Arguments {
     /// Case file (TOML)

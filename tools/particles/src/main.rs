@@ -18,9 +18,7 @@ use particle_file::ParticleFile;
     after_help = "Examples:
   particles info bond.mpts
   particles check runs/pf/final.mpts && particles sum runs/pf/final.mpts
-  particles export runs/pf/snapshots/*.mpts -o pf.pvd
-
-Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt file."
+  particles export runs/pf/snapshots/*.mpts -o pf.pvd"
 )]
 struct Arguments {
     #[command(subcommand)]
