@@ -8,7 +8,7 @@
 #   make RUNS="implicit flip"     only these of xpic, flip, frictionless, implicit, implicit-frictionless
 #   make JOBS=2 RUN_THREADS=1     so many runs side by side, on so many threads each
 #   make SET="adhesive.viscosity=500 cP clamp.max_pressure=1 MPa"   with keys of the cases changed
-#   make CELL="1 voxel"           in other cells than those of two voxels
+#   make CELL="1 voxel"           in other cells than those of two voxels; the influence length stays
 #   make BOND="--crop-to-fit --drop-islands"   bonds built with these options of build-bondline
 #   make YES=1                    starts runs of more than an hour unasked; V=1 shows commands and CSV
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif [VOXEL="1.45 um"] [LABELS=void=0,wood=1,adhesive=2]
@@ -29,7 +29,7 @@
 #   make crash                    runs killed at every write, continued: all end the same
 #   make forge                    50 000 forged particle files and checkpoints
 #   make faults                   inputs that were once read wrongly; BASE=folder: beside an older build
-#   make fuzz                     coverage-guided attack on every reader, FUZZ_SECONDS (600) each
+#   make fuzz                     coverage-guided attack on six readers, FUZZ_SECONDS (600) each
 #   make mutants                  changes of the code that no test notices, MUTANTS (100) a crate
 #   make deny                     advisories, licences and sources of the dependencies
 #   make pins                     fingerprints of thirty small runs, to compare builds by
