@@ -53,18 +53,6 @@ fn scene(walls: bool, viscosity: Viscosity) -> Scene {
     scene
 }
 
-/// Processor time of this process so far, s; Linux only, else 0.
-fn processor_s() -> f64 {
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let fields = stat
-        .rsplit(')')
-        .next()
-        .unwrap_or_default()
-        .split_whitespace();
-    let ticks = fields.skip(11).take(2).flat_map(str::parse::<f64>);
-    ticks.sum::<f64>() / 100.0
-}
-
 /// What is timed in every scene.
 fn variants() -> Vec<Settings> {
     let of = |shape, velocity_update| Settings {
@@ -91,6 +79,7 @@ fn variants() -> Vec<Settings> {
 }
 
 fn main() {
+    let cpu_seconds = || machine::cpu_seconds().unwrap_or(f64::NAN);
     let steps: usize = std::env::args()
         .nth(1)
         .map_or(400, |n| n.parse().expect("a number of steps"));
@@ -119,10 +108,10 @@ fn main() {
             }
             let mut run = Explicit::new(&scene, &settings).expect("a valid scene");
             scenes::advance(&mut run, 1);
-            let (start, cpu) = (Instant::now(), processor_s());
+            let (start, cpu) = (Instant::now(), cpu_seconds());
             let before = run.stage_times();
             scenes::advance(&mut run, steps);
-            let (wall, cpu) = (start.elapsed().as_secs_f64(), processor_s() - cpu);
+            let (wall, cpu) = (start.elapsed().as_secs_f64(), cpu_seconds() - cpu);
             let points = scene.points.position.len();
             let stages: Vec<String> = run
                 .stage_times()

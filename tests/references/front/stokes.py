@@ -26,28 +26,6 @@ def tables(d):
     return n, dn, np.array([product(w[list(q)]) for q in points])
 
 
-def triangle():
-    """The same for triangles: quadratic and a bubble (vertices, middles of the edges opposite to them, centroid)."""
-    a, b = (6 - np.sqrt(15)) / 21, (6 + np.sqrt(15)) / 21
-    wa, wb = (155 - np.sqrt(15)) / 2400, (155 + np.sqrt(15)) / 2400
-    corners = [[1 / 3] * 3] + [[c] * k + [1 - 2 * c] + [c] * (2 - k) for c in (a, b) for k in range(3)]
-    l = np.array(corners)
-    dl = np.array([[-1.0, -1.0], [1, 0], [0, 1]])
-    bubble = 27 * l.prod(1)
-    dbubble = 27 * sum((l[:, (i + 1) % 3] * l[:, (i + 2) % 3])[:, None] * dl[i] for i in range(3))
-    n, dn = [], []
-    for i in range(3):
-        n.append(l[:, i] * (2 * l[:, i] - 1) + bubble / 9)
-        dn.append((4 * l[:, i] - 1)[:, None] * dl[i] + dbubble / 9)
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        n.append(4 * l[:, j] * l[:, k] - 4 / 9 * bubble)
-        dn.append(4 * (l[:, j][:, None] * dl[k] + l[:, k][:, None] * dl[j]) - 4 / 9 * dbubble)
-    n.append(bubble)
-    dn.append(dbubble)
-    return np.array(n).T, np.array(dn).transpose(1, 0, 2), np.array([9 / 80] + [wa] * 3 + [wb] * 3)
-
-
 def cells_of(shape):
     """Node numbers of the elements of a block of nodes of that shape (odd numbers of nodes)."""
     ids = np.arange(np.prod(shape)).reshape(shape)
@@ -63,13 +41,13 @@ def factor(matrix):
     return solver
 
 
-def flow(x, cells, fixed, values, shapes=None, round=False):
+def flow(x, cells, fixed, values, round=False):
     """Velocity (node, axis), the forces that hold the fixed unknowns (node, axis), volume, and div u at its worst.
 
     x: nodes; cells: nodes of each element; fixed: mask (node, axis); values: velocities there; round: around the first axis, whose distance
     is the second one, and what is summed is that of a radian."""
     nodes, d = x.shape
-    n, dn, w = shapes or tables(d)
+    n, dn, w = tables(d)
     nv = n.shape[1]
     xe = x[cells]
     jac = np.einsum("eia,qib->eqab", xe, dn)

@@ -1,7 +1,6 @@
 //! `make bench`: what both schemes cost per liquid cell, point and step, at several sizes and numbers
 //! of threads, beside an older build where `BASE` names its folder.
 
-mod machine;
 mod report;
 mod runs;
 
@@ -25,7 +24,6 @@ struct Row {
 pub fn run(study: &Study) -> Result<bool> {
     let folder = study.folder();
     let base = std::env::var_os("BASE").map(PathBuf::from);
-    let bandwidth = machine::triad();
     let mut rows = Vec::new();
     for piece in runs::plan().into_iter().filter(|p| study.wants(&p.name())) {
         let bond = runs::specimen(piece.size, &folder)?;
@@ -45,6 +43,6 @@ pub fn run(study: &Study) -> Result<bool> {
         println!("{}", report::line(&row));
         rows.push(row);
     }
-    report::write(study, &rows, &bandwidth)?;
+    report::write(study, &rows)?;
     Ok(true)
 }

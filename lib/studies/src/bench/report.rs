@@ -24,9 +24,9 @@ fn ratio(row: &Row) -> Option<f64> {
 }
 
 /// Writes `bench.csv` and `bench.md`.
-pub(super) fn write(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> Result<()> {
+pub(super) fn write(study: &Study, rows: &[Row]) -> Result<()> {
     study.write_csv("bench.csv", COLUMNS, rows.iter().map(fields))?;
-    study.write("bench.md", page(study, rows, bandwidth))
+    study.write("bench.md", page(study, rows))
 }
 
 fn fields(row: &Row) -> Vec<String> {
@@ -56,25 +56,19 @@ fn stages(row: &Row) -> String {
     shown.join(", ")
 }
 
-fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
-    let streams: Vec<String> = bandwidth
-        .iter()
-        .map(|(n, rate)| format!("{:.1} GB/s with {n}", rate / 1e9))
-        .collect();
+fn page(study: &Study, rows: &[Row]) -> String {
     let heads = "| specimen | case | threads | liquid cells | CPU us per cell and step | ratio | points x steps per CPU s | \
-         streamable bytes per cell and step | memory per cell | wall s per step | stages |";
-    let one = bandwidth.first().map_or(f64::NAN, |b| b.1);
+         memory per cell | wall s per step | stages |";
     let line = |row: &Row| {
         let (cost, cells) = (&row.cost, row.cost.cells());
         format!(
-            "| {} | {} | {} | {cells:.0} | {:.3} | {} | {:.3} M | {:.0} | {:.0} B | {:.3} | {} |",
+            "| {} | {} | {} | {cells:.0} | {:.3} | {} | {:.3} M | {:.0} B | {:.3} | {} |",
             row.piece.size,
             row.piece.case,
             row.piece.threads,
             1e6 * cost.cpu_s / cells,
             ratio(row).map_or("-".into(), |r| format!("{r:.2}")),
             cost.points / cost.cpu_s / 1e6,
-            cost.cpu_s / cells * one,
             cost.memory / cells,
             cost.wall_s,
             stages(row)
@@ -82,7 +76,6 @@ fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
     };
     let values = [
         ("origin", study.origin()),
-        ("streams", &streams.join(", ")),
         ("table", &table(heads, rows.iter().map(line))),
     ];
     filled(include_str!("page.txt"), &values)
