@@ -40,7 +40,7 @@ impl Wetting {
         self.dynamic_coefficient.min(most)
     }
 
-    /// Dry friction of a contact line per area and speed: F/(|u'| + v_0) with u' the `speed` of the last step. Friction
+    /// Pinning friction of a contact line per area and speed: F/(|u'| + v_0) with u' the `speed` of the last step. Friction
     /// depends on the displacement, not the time: in a longer step u' is scaled to the displacement of the last one, or
     /// fronts that come to rest would creep on as steps grow.
     fn contact_friction(&self, hysteresis: f64, speed: f64) -> f64 {

@@ -53,7 +53,7 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// Coefficients the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
+    /// Scales the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
     pub(crate) fn scale_to_speed(&mut self, speed: f64) {
         let factor = speed / self.speed;
         if !(factor > 0.0 && factor.is_finite()) || factor == 1.0 {

@@ -1,4 +1,7 @@
-//! From a page's layout to its pixels.
+//! From a page's layout to its pixels. Plain strips are read directly. Everything else goes through the `tiff` crate as a page of
+//! plain grey strips in memory, so that the crate decompresses, undoes predictors and orders bytes, and does not meet what it
+//! misreads: MINISWHITE, palettes, planar RGB, several planes in a page, and LZW tiles whose rows end between two codes
+//! (image-rs/image-tiff issue 395).
 
 use std::fs::File;
 use std::io::Cursor;
