@@ -65,15 +65,16 @@ pub fn main<A: Parser + CommandFactory>(
 
 /// Adds the exit status to the help of a command whose help does not have it.
 fn with_exit_status(command: clap::Command) -> clap::Command {
-    let own = command.get_after_help().map_or(String::new(), |help| help.to_string());
+    let own = command
+        .get_after_help()
+        .map_or(String::new(), |help| help.to_string());
     match own.contains("Exit status:") {
         true => command,
         false => command.after_help(format!("{own}\n\n{EXIT_STATUS}").trim_start().to_owned()),
     }
 }
 
-const EXIT_STATUS: &str =
-    "Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or damaged data, or too little memory.";
+const EXIT_STATUS: &str = "Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or damaged data, or too little memory.";
 
 /// `--generate WHAT` must work without the tool's required arguments, so it is looked for
 /// before the real parse; a wrong WHAT is left to that parse to refuse.

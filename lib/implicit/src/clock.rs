@@ -1,5 +1,6 @@
 //! Wall time of each part of a step.
 
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use physics::StageTime;
@@ -27,13 +28,14 @@ const NAMES: [&str; 7] = [
 ];
 
 /// Wall time of each part so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Clock([Duration; 7]);
+#[derive(Debug, Default)]
+pub(crate) struct Clock([Cell<Duration>; 7]);
 
 impl Clock {
     /// Adds the time since `begun` to a part.
-    pub(crate) fn add(&mut self, part: Stage, begun: Instant) {
-        self.0[part as usize] += begun.elapsed();
+    pub(crate) fn add(&self, part: Stage, begun: Instant) {
+        let time = &self.0[part as usize];
+        time.set(time.get() + begun.elapsed());
     }
 
     /// Times of the parts; the loss of water is one where the liquid holds `water`.
@@ -42,7 +44,7 @@ impl Clock {
             .filter(|(name, _)| water || *name != NAMES[Stage::Water as usize])
             .map(|(name, time)| StageTime {
                 name,
-                wall_s: time.as_secs_f64(),
+                wall_s: time.get().as_secs_f64(),
             })
             .collect()
     }

@@ -191,23 +191,14 @@ impl Through {
 fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let n = mesh.size[axis];
     let layer = |pore: usize| mesh.cell_indices(mesh.cell(pore))[axis];
-    let reached = |sides: [usize; 2]| {
-        let mut found: Vec<bool> = (0..mesh.pores.len())
-            .map(|pore| sides.contains(&layer(pore)))
-            .collect();
-        let mut next: Vec<usize> = (0..found.len()).filter(|&pore| found[pore]).collect();
-        while let Some(pore) = next.pop() {
-            for other in mesh.neighbours(pore).map(|neighbour| neighbour.pore) {
-                let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);
-                if !found[other] && !mirrored {
-                    found[other] = true;
-                    next.push(other);
-                }
+    let mut fractions = vec![0.0; mesh.pores.len()];
+    for half in [0..n / 2, n / 2..n] {
+        for part in mesh.components(|pore| half.contains(&layer(pore))) {
+            let reaches = |side: usize| part.iter().any(|&pore| layer(pore as usize) == side);
+            if reaches(half.start) && reaches(half.end - 1) {
+                part.iter().for_each(|&pore| fractions[pore as usize] = 1.0);
             }
         }
-        found
-    };
-    let (low, high) = (reached([0, n - 1]), reached([n / 2 - 1, n / 2]));
-    let both = low.iter().zip(high).map(|(low, high)| *low && high);
-    both.map(|both| f64::from(u8::from(both))).collect()
+    }
+    fractions
 }

@@ -38,16 +38,6 @@ pub use velocity_block::VelocityBlock;
 /// Why a linear system was not solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
-    /// Arrays that belong together differ in length.
-    #[error("{what}: {found} given, {expected} expected")]
-    Length {
-        /// Name of the array.
-        what: &'static str,
-        /// Its length.
-        found: usize,
-        /// Expected length.
-        expected: usize,
-    },
     /// A matrix or a diagonal lacks a required property.
     #[error("linear system: {0}")]
     Matrix(String),
@@ -105,16 +95,3 @@ impl SolveError {
 
 /// A solution with a residual up to this many times the tolerance may be used; the next step continues from it.
 pub const NEARLY: f64 = 10.0;
-
-/// Refuses a length that does not fit.
-fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), SolveError> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(SolveError::Length {
-            what,
-            found,
-            expected,
-        })
-    }
-}

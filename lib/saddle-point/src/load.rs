@@ -2,9 +2,8 @@
 
 use crate::fgmres::{Operator, Precondition};
 use crate::preconditioner::Preconditioner;
-use crate::sealed::PocketResponse;
 use crate::vector::{Real, Work, add_scaled, dot};
-use crate::{SaddleSystem, SolveError, check_length};
+use crate::{SaddleSystem, SolveError};
 
 /// Coupling of a body's speed V to the system, and the force F on the body:
 /// `[A, -G^T, -m; -G, -C, s; -m^T, s^T, d] [u; p; V] = [b; -g; F]`, with b and g for V = 0.
@@ -24,9 +23,10 @@ pub struct Load {
 
 impl Load {
     pub(crate) fn check(&self, system: &SaddleSystem) -> Result<(), SolveError> {
-        let (momenta, sources) = (self.momentum.len(), self.source.len());
-        check_length("momenta of the load", momenta, system.a.n_rows())?;
-        check_length("sources of the load", sources, system.g.n_rows())?;
+        assert_eq!(
+            [self.momentum.len(), self.source.len()],
+            [system.a.n_rows(), system.g.n_rows()]
+        );
         // A body that no liquid touches meets no resistance.
         let acts = |values: &[f64]| values.iter().any(|v| *v != 0.0);
         if self.resistance == 0.0 && !acts(&self.momentum) && !acts(&self.source) {
@@ -128,7 +128,8 @@ pub(crate) struct Bordered<'a, 'b> {
     faces: usize,
     column: Vec<Work>,
     response: Vec<Work>,
-    pocket_response: PocketResponse,
+    /// Mean over each sealed pocket of the volumes that unit speed displaces.
+    moved: Vec<f64>,
     pivot: f64,
 }
 
@@ -137,16 +138,16 @@ impl<'a, 'b> Bordered<'a, 'b> {
         let source: Vec<f64> = load.source.iter().map(|s| weight * s).collect();
         let (column, mut response) = (load.column(weight), Vec::new());
         inner.apply(&column, &mut response);
-        let pocket_response = inner.sealed().response_to(&source);
+        let moved = inner.sealed().displaced(&source);
         // Positive if the preconditioner is close enough to the system, which resists motion.
         let pivot = weight * weight * load.resistance - dot(&column, &response)
-            + pocket_response.resistance();
+            + inner.sealed().force(&moved, &moved);
         Self {
             inner,
             faces: load.momentum.len(),
             column,
             response,
-            pocket_response,
+            moved,
             pivot: pivot.abs().max(f64::MIN_POSITIVE),
         }
     }
@@ -156,16 +157,17 @@ impl Precondition for Bordered<'_, '_> {
     fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r, force) = r.split_at(r.len() - 1);
         self.inner.apply(r, z);
-        let (pockets, faces) = (&self.inner.sealed().pockets, self.faces);
-        let means = pockets.means(&r[faces..]);
-        let force =
-            f64::from(force[0]) - dot(&self.column, z) - self.pocket_response.force_at_rest(&means);
+        let (sealed, faces) = (self.inner.sealed(), self.faces);
+        let means = sealed.means(&r[faces..]);
+        let force = f64::from(force[0]) - dot(&self.column, z) + sealed.force(&self.moved, &means);
         let speed = force / self.pivot;
         add_scaled(z, -speed, &self.response);
-        pockets.subtract(
-            &self.pocket_response.negative_pressures(&means, speed),
-            &mut z[faces..],
-        );
+        // Pockets in which the body displaces nothing are left to the correction in double precision.
+        let residuals = means.iter().zip(&self.moved).map(|(r, moved)| match moved {
+            0.0 => 0.0,
+            moved => r - moved * speed,
+        });
+        sealed.subtract(&sealed.negative_pressures(residuals), &mut z[faces..]);
         z.push(Work::nearest(speed));
     }
 
@@ -176,12 +178,13 @@ impl Precondition for Bordered<'_, '_> {
             return false;
         }
         let ((r, force), (x, speed)) = (split(r), x.split_at_mut(x.len() - 1));
-        let means = sealed.pockets.means(&r[self.faces..]);
-        let change = (force - self.pocket_response.force_at_rest(&means)) / self.pivot;
-        let suction = self.pocket_response.negative_pressures(&means, change);
-        // Pockets in which the body displaces nothing depend on their own volume only.
-        sealed.add_means_of_undisplaced(&self.pocket_response, &means, &mut x[self.faces..]);
-        sealed.pockets.subtract(&suction, &mut x[self.faces..]);
+        let means = sealed.means(&r[self.faces..]);
+        let change = (force + sealed.force(&self.moved, &means)) / self.pivot;
+        let residuals = means
+            .iter()
+            .zip(&self.moved)
+            .map(|(r, moved)| r - moved * change);
+        sealed.subtract(&sealed.negative_pressures(residuals), &mut x[self.faces..]);
         speed[0] += change;
         true
     }

@@ -66,7 +66,8 @@ impl Precondition for Preconditioner<'_> {
 
     fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool {
         let (faces, sealed) = (self.g.n_columns(), self.sealed());
-        sealed.add_mean_pressures(&r[faces..], &mut x[faces..]);
+        let means = sealed.means(&r[faces..]).into_iter();
+        sealed.subtract(&sealed.negative_pressures(means), &mut x[faces..]);
         !sealed.is_empty()
     }
 }

@@ -30,7 +30,7 @@ impl SaddleSolver {
     /// of threads.
     ///
     /// # Errors
-    /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,
+    /// [`SolveError::Matrix`] when the system is not as described,
     /// [`SolveError::NotFinite`] for a right-hand side or guess that is not finite,
     /// [`SolveError::NotConverged`] up to [`NEARLY`](super::NEARLY) times the tolerance, with the
     /// best `u` and `p` found, and [`SolveError::Unsolved`] beyond it.

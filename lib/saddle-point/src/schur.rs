@@ -36,10 +36,9 @@ impl Schur {
 
     /// `p = -S^-1 r` without the means over sealed pockets, which are removed from `r`.
     pub(crate) fn apply_negative(&mut self, r: &mut [Work], p: &mut [Work]) {
-        let pockets = &self.sealed.pockets;
-        pockets.remove_mean(r);
+        self.sealed.remove_mean(r);
         self.amg.cycle(r, &mut self.friction_part);
-        pockets.remove_mean(&mut self.friction_part);
+        self.sealed.remove_mean(&mut self.friction_part);
         let (viscous, friction_part) = (&self.viscous[..], &self.friction_part[..]);
         for_each(p, |i, p| *p = -(friction_part[i] + viscous[i] * r[i]));
     }

@@ -1,7 +1,8 @@
 //! Mean pressures of sealed liquid, which the multigrid cycle cannot resolve.
 
-use crate::csr::Csr;
-use crate::pockets::{ClosedPockets, sum_and_diagonal};
+use crate::csr::{Csr, value_at};
+use crate::pockets::components;
+use crate::vector::Real;
 
 /// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision. At 2e-9 presses
 /// with air were not solved.
@@ -12,10 +13,12 @@ const ROUNDING: f64 = 1e-13;
 /// pocket along.
 const CARRIED: f64 = 1e-6;
 
-/// Pockets of liquid that are sealed, or nearly, and their stiffness. Almost no flow changes their volume, so their mean
-/// residual depends on mean pressure and bodies only: `-C p + s V`, with leaks counted to C.
+/// Pockets of liquid that are sealed, or nearly: connected cells on which the Poisson operator is singular, or nearly. Almost no
+/// flow changes their volume, so their mean residual depends on mean pressure and bodies only: `-C p + s V`, with leaks counted
+/// to C.
 pub(crate) struct Sealed {
-    pub(crate) pockets: ClosedPockets,
+    /// Cells of each pocket.
+    pockets: Vec<Vec<u32>>,
     /// Number of cells over the sum of `C`, for each pocket; 0 if that sum is zero.
     stiffness: Vec<f64>,
 }
@@ -23,109 +26,78 @@ pub(crate) struct Sealed {
 impl Sealed {
     /// The sealed pockets of the Poisson operator `matrix` with compressibilities `c`.
     pub(crate) fn find(matrix: &Csr<f64>, c: &[f64]) -> Self {
-        let sums = |pocket: &[u32]| {
-            (pocket.iter()).fold((0.0, 0.0), |(leak, whole), &row| {
-                let (sum, diagonal) = sum_and_diagonal(matrix, row);
-                (leak + sum, whole + diagonal)
-            })
-        };
-        let pockets = ClosedPockets::of(matrix, |pocket| {
-            let (leak, whole) = sums(pocket);
-            leak.abs() <= SEALED * whole
-        });
-        let stiffness = |pocket: &Vec<u32>| {
-            let (leak, whole) = sums(pocket);
-            let leak = if leak > ROUNDING * whole { leak } else { 0.0 };
-            let soft: f64 = pocket.iter().map(|&row| c[row as usize]).sum();
-            match soft.max(leak) {
-                soft if soft > 0.0 => pocket.len() as f64 / soft,
-                _ => 0.0,
+        let (mut pockets, mut stiffness) = (Vec::new(), Vec::new());
+        let neighbours = |row: u32| matrix.row(row as usize).0.iter().copied();
+        for pocket in components(matrix.n_rows(), neighbours) {
+            let (mut leak, mut whole, mut soft) = (0.0_f64, 0.0, 0.0_f64);
+            for row in pocket.iter().map(|&row| row as usize) {
+                leak += matrix.row(row).1.iter().sum::<f64>();
+                whole += value_at(matrix.row(row), row);
+                soft += c[row];
             }
-        };
-        Self {
-            stiffness: pockets.members.iter().map(stiffness).collect(),
-            pockets,
+            if leak.abs() > SEALED * whole {
+                continue;
+            }
+            let soft = soft.max(if leak > ROUNDING * whole { leak } else { 0.0 });
+            let cells = pocket.len() as f64;
+            stiffness.push(if soft > 0.0 { cells / soft } else { 0.0 });
+            pockets.push(pocket);
         }
+        Self { pockets, stiffness }
     }
 
     /// Whether there are no sealed pockets.
     pub(crate) fn is_empty(&self) -> bool {
-        self.stiffness.is_empty()
+        self.pockets.is_empty()
     }
 
-    /// Adds the mean pressures that follow from the volume residuals `r` to the pressures `p`.
-    pub(crate) fn add_mean_pressures(&self, r: &[f64], p: &mut [f64]) {
-        self.add(&self.pockets.means(r), &self.stiffness, p);
+    /// Mean over each pocket.
+    pub(crate) fn means<T: Real>(&self, x: &[T]) -> Vec<f64> {
+        let mean = |pocket: &Vec<u32>| {
+            let sum: f64 = pocket.iter().map(|&row| x[row as usize].into()).sum();
+            sum / pocket.len() as f64
+        };
+        self.pockets.iter().map(mean).collect()
     }
 
-    /// The same from the mean residuals `r`, in pockets in which the body displaces nothing.
-    pub(crate) fn add_means_of_undisplaced(
-        &self,
-        response: &PocketResponse,
-        r: &[f64],
-        p: &mut [f64],
-    ) {
-        let stiffness: Vec<f64> = (self.stiffness.iter().zip(&response.0))
-            .map(|(stiffness, pocket)| if pocket.moved == 0.0 { *stiffness } else { 0.0 })
-            .collect();
-        self.add(r, &stiffness, p);
+    /// Subtracts a value on each pocket.
+    pub(crate) fn subtract<T: Real>(&self, values: &[f64], x: &mut [T]) {
+        for (pocket, &value) in self.pockets.iter().zip(values) {
+            let value = T::nearest(value);
+            for &row in pocket {
+                x[row as usize] = x[row as usize] - value;
+            }
+        }
     }
 
-    fn add(&self, r: &[f64], stiffness: &[f64], p: &mut [f64]) {
-        let means: Vec<f64> = r.iter().zip(stiffness).map(|(r, s)| r * s).collect();
-        self.pockets.subtract(&means, p);
+    /// Subtracts the mean over each pocket.
+    pub(crate) fn remove_mean<T: Real>(&self, x: &mut [T]) {
+        self.subtract(&self.means(x), x);
     }
 
-    /// The pockets' response to a body that displaces the volumes `column` at unit speed.
-    pub(crate) fn response_to(&self, column: &[f64]) -> PocketResponse {
+    /// Mean over each pocket of the volumes `column` that a body displaces at unit speed; 0 if it carries the pocket along.
+    pub(crate) fn displaced(&self, column: &[f64]) -> Vec<f64> {
         let parts: Vec<f64> = column.iter().map(|moved| moved.abs()).collect();
-        let moved = (self.pockets.means(column).into_iter()).zip(self.pockets.means(&parts));
+        let moved = (self.means(column).into_iter()).zip(self.means(&parts));
         let moved = moved.map(|(moved, parts)| match moved.abs() > CARRIED * parts {
             true => moved,
             false => 0.0,
         });
-        let pockets = (self.pockets.members.iter()).zip(&self.stiffness);
-        PocketResponse(
-            (moved.zip(pockets))
-                .map(|(moved, (pocket, stiffness))| DisplacedPocket {
-                    moved,
-                    total: moved * pocket.len() as f64,
-                    // Other pockets are not affected.
-                    stiffness: if moved == 0.0 { 0.0 } else { *stiffness },
-                })
-                .collect(),
-        )
-    }
-}
-
-/// Response of sealed pockets to a body that displaces liquid in them.
-pub(crate) struct PocketResponse(Vec<DisplacedPocket>);
-
-struct DisplacedPocket {
-    /// Mean and sum over the pocket of the volumes that the body displaces at unit speed.
-    moved: f64,
-    total: f64,
-    stiffness: f64,
-}
-
-impl PocketResponse {
-    /// Force on the body at unit speed.
-    pub(crate) fn resistance(&self) -> f64 {
-        let of = |pocket: &DisplacedPocket| pocket.total * pocket.moved * pocket.stiffness;
-        self.0.iter().map(of).sum()
+        moved.collect()
     }
 
-    /// Force on the body at rest due to the mean residuals `r`.
-    pub(crate) fn force_at_rest(&self, r: &[f64]) -> f64 {
-        let of = |(pocket, r): (&DisplacedPocket, &f64)| -pocket.total * r * pocket.stiffness;
-        self.0.iter().zip(r).map(of).sum()
+    /// Negative mean pressures due to mean volume residuals.
+    pub(crate) fn negative_pressures(&self, residuals: impl Iterator<Item = f64>) -> Vec<f64> {
+        residuals.zip(&self.stiffness).map(|(r, s)| r * s).collect()
     }
 
-    /// Negative mean pressures due to the mean residuals `r` and the body's speed.
-    pub(crate) fn negative_pressures(&self, r: &[f64], speed: f64) -> Vec<f64> {
-        let of =
-            |(pocket, r): (&DisplacedPocket, &f64)| (r - pocket.moved * speed) * pocket.stiffness;
-        self.0.iter().zip(r).map(of).collect()
+    /// Force on a body that displaces `moved` on the mean, due to the mean volumes `volumes` pushed into the pockets.
+    pub(crate) fn force(&self, moved: &[f64], volumes: &[f64]) -> f64 {
+        let pockets = self.pockets.iter().zip(&self.stiffness);
+        let of = |(((pocket, stiffness), moved), volume): (((&Vec<u32>, &f64), &f64), &f64)| {
+            pocket.len() as f64 * moved * volume * stiffness
+        };
+        pockets.zip(moved).zip(volumes).map(of).sum()
     }
 }
 
@@ -152,7 +124,10 @@ mod tests {
 
     #[test]
     fn a_pocket_that_a_body_carries_along_does_not_hold_it() {
-        let resistance = |moved: [f64; 2]| sealed(0.0).response_to(&moved).resistance();
+        let resistance = |column: [f64; 2]| {
+            let moved = sealed(0.0).displaced(&column);
+            sealed(0.0).force(&moved, &moved)
+        };
         assert_eq!(resistance([0.1, 1e-9 - 0.1]), 0.0);
         let whole: f64 = 0.1 - 0.0999;
         assert!((resistance([0.1, -0.0999]) * 4e-17 / whole.powi(2) - 1.0).abs() < 1e-9);

@@ -1,9 +1,9 @@
 //! The saddle-point system and its checks.
 
+use crate::SolveError;
 use crate::csr::Csr;
 use crate::vector::norm;
 use crate::velocity_block::VelocityBlock;
-use crate::{SolveError, check_length};
 
 /// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and the data of its preconditioner.
 ///
@@ -89,16 +89,11 @@ impl SaddleSystem<'_> {
                 forces[face as usize] += area;
             }
         }
-        for (face, force) in forces.iter_mut().enumerate() {
-            *force *= self.slow_force(face);
+        for (force, friction) in forces.iter_mut().zip(self.friction) {
+            // The friction is capped at that of a cell of liquid with viscosity `eta_0`, else thicker liquid would outweigh the rest.
+            *force *= self.slow * friction.min(1.0);
         }
         norm(&forces)
-    }
-
-    /// Friction force of slow flow at a face. The friction is capped at that of a cell of liquid with viscosity `eta_0`, else
-    /// thicker liquid would outweigh the rest.
-    pub(crate) fn slow_force(&self, face: usize) -> f64 {
-        self.slow * self.friction[face].min(1.0)
     }
 
     /// Norm of `b` without the drag of `clinging`.
@@ -119,31 +114,18 @@ impl SaddleSystem<'_> {
         norm(&forces)
     }
 
-    /// Refuses wrong lengths, those of the guess included, and values out of range.
+    /// Refuses values out of range, those of the guess included.
+    ///
+    /// # Panics
+    /// For arrays of other lengths than the matrices have.
     pub(crate) fn check(&self, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
         let (faces, cells) = (self.a.n_rows(), self.g.n_rows());
-        let or_none = |forces: &[f64]| if forces.is_empty() { 0 } else { faces };
-        for (what, found, expected) in [
-            ("columns of the flux operator", self.g.n_columns(), faces),
-            ("compressibilities", self.c.len(), cells),
-            ("face frictions", self.friction.len(), faces),
-            ("momentum right-hand side", self.b.len(), faces),
-            (
-                "standing forces",
-                self.standing.len(),
-                or_none(self.standing),
-            ),
-            (
-                "forces of what clings",
-                self.clinging.len(),
-                or_none(self.clinging),
-            ),
-            ("volume sources", self.volume_source.len(), cells),
-            ("carried volumes", self.carried.len(), cells),
-            ("velocities", u.len(), faces),
-            ("pressures", p.len(), cells),
-        ] {
-            check_length(what, found, expected)?;
+        let of_faces = [self.friction, self.b, u].map(<[f64]>::len);
+        let of_cells = [self.c, self.volume_source, self.carried, p].map(<[f64]>::len);
+        assert_eq!((self.g.n_columns(), of_faces), (faces, [faces; 3]));
+        assert_eq!(of_cells, [cells; 4]);
+        for forces in [self.standing, self.clinging] {
+            assert!(forces.is_empty() || forces.len() == faces);
         }
         for values in [
             self.b,

@@ -54,12 +54,7 @@ impl VelocityBlock {
     /// The largest entry off the diagonal, which is twice the largest viscosity: walls and inertia are on the diagonal. 0 if there
     /// is none.
     pub(crate) fn largest_coupling(&self) -> f64 {
-        let root = &self.root;
-        let entries = |row: usize| {
-            let entries = self.matrix.row(row).filter(|&(_, entry)| entry != 0.0);
-            entries.map(move |(column, entry)| entry.abs() * root[row] * root[column])
-        };
-        (0..self.n_rows()).flat_map(entries).fold(0.0, f64::max)
+        self.matrix.largest
     }
 
     /// `D`.

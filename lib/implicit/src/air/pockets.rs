@@ -52,42 +52,30 @@ impl Air {
             let at_end = row == 0 || row + 1 == mesh.rows().len();
             mesh.is_ghost(mesh.cell(pore)) || along_y && at_end
         };
-        let mut found = vec![false; mesh.pores.len()];
-        for first in 0..mesh.pores.len() {
-            if found[first] || full(first) {
+        for mut pores in mesh.components(|pore| !full(pore)) {
+            let each = || pores.iter().map(|&pore| pore as usize);
+            if each().any(reaches_out) {
+                air.outside.append(&mut pores);
                 continue;
             }
-            let pores = mesh.connected(first, &|pore| !full(pore), &mut found);
-            let each = || pores.iter().map(|&pore| pore as usize);
-            let open = each().any(reaches_out);
             let wet = each().any(|pore| {
                 mesh.neighbours(pore)
                     .any(|neighbour| has_pressure(neighbour.pore))
             });
-            air.add(pores, open, wet, void);
+            pores.sort_unstable();
+            let sum = |of: &[f64]| pores.iter().map(|&pore| of[pore as usize]).sum::<f64>();
+            let pocket = Pocket {
+                mass: sum(&air.mass),
+                volume: sum(void),
+                tangent: Tangent::default(),
+                pores,
+            };
+            match wet {
+                true => air.pockets.push(pocket),
+                false => air.dry.push(pocket),
+            }
         }
         air
-    }
-
-    /// Adds connected pores: as outside air if they are `open`, else as a pocket, `wet` if it borders on liquid with a
-    /// pressure.
-    fn add(&mut self, mut pores: Vec<u32>, open: bool, wet: bool, void: &[f64]) {
-        if open {
-            self.outside.append(&mut pores);
-            return;
-        }
-        pores.sort_unstable();
-        let sum = |of: &[f64]| pores.iter().map(|&pore| of[pore as usize]).sum::<f64>();
-        let pocket = Pocket {
-            mass: sum(&self.mass),
-            volume: sum(void),
-            tangent: Tangent::default(),
-            pores,
-        };
-        match wet {
-            true => self.pockets.push(pocket),
-            false => self.dry.push(pocket),
-        }
     }
 
     /// Moves the gas of full pores to their neighbours that are not full, in proportion to the empty volume of these.

@@ -3,8 +3,8 @@
 
 use physics::Boundary;
 
-use super::Lattice;
-use super::lattice::OPEN;
+use super::lattice::{Lattice, OPEN};
+use super::rows::RowKind;
 
 /// Cap on chord lengths, voxels, which also stands for infinity: walls farther apart do not affect each other's friction.
 pub(super) const LONGEST_CHORD: f64 = 1000.0;
@@ -73,7 +73,7 @@ impl Lines {
 struct Part([Lines; 3]);
 
 impl Part {
-    fn new(layers: &[&[u8]], [nx, nz]: [usize; 2]) -> Self {
+    fn new(layers: &[Vec<u8>], [nx, nz]: [usize; 2]) -> Self {
         let n = layers.len();
         Self([
             Lines::new(n * nz, nx, |line, x| {
@@ -92,93 +92,65 @@ impl Part {
     }
 }
 
-/// Chord lengths of all voxels, found in lines of bits.
-pub(crate) struct Chords {
-    below: Part,
-    gap: Part,
-    above: Part,
-}
+/// Chord lengths of all voxels, found in lines of bits, for the three parts of the lattice.
+pub(crate) struct Chords([Part; 3]);
 
 /// Address of a voxel: part of the lattice, layer counted from the gap, index in the layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum VoxelAddress {
-    Below(usize, usize),
-    Gap(usize),
-    Above(usize, usize),
+pub(crate) struct VoxelAddress {
+    pub(super) part: RowKind,
+    pub(super) layer: usize,
+    pub(super) at: usize,
 }
 
 impl Chords {
     pub(crate) fn new(lattice: &Lattice) -> Self {
-        let part = |layers: &[Vec<u8>]| {
-            let layers: Vec<&[u8]> = layers.iter().map(|layer| &layer[..]).collect();
-            Part::new(&layers, lattice.layer_size())
-        };
-        Self {
-            below: part(&lattice.below),
-            gap: Part::new(&[&lattice.gap], lattice.layer_size()),
-            above: part(&lattice.above),
-        }
+        let size = lattice.layer_size();
+        Self((lattice.layers.each_ref()).map(|layers| Part::new(layers, size)))
     }
 
     /// Chord length along an axis through an open voxel, voxels; the gap is `gap` voxels high.
     pub(crate) fn length(
         &self,
         lattice: &Lattice,
-        address: VoxelAddress,
+        VoxelAddress { part, layer, at }: VoxelAddress,
         axis: usize,
         gap: f64,
     ) -> f64 {
-        let (part, layer, at) = match address {
-            VoxelAddress::Gap(at) if axis == 1 => return self.length_through_gap(lattice, at, gap),
-            VoxelAddress::Gap(at) => (&self.gap, 0, at),
-            VoxelAddress::Below(layer, at) => (&self.below, layer, at),
-            VoxelAddress::Above(layer, at) => (&self.above, layer, at),
-        };
         let [nx, nz] = lattice.layer_size();
         let (line, i) = match axis {
             0 => (layer * nz + at / nx, at % nx),
             1 => (at, layer),
             _ => (layer * nx + at % nx, at / nx),
         };
-        let lines = &part.0[axis];
-        if axis != 1 || lattice.moving.is_none() {
-            return lines.chord_length(line, lattice.boundary[axis], i);
+        let lines = &self.0[part as usize].0[axis];
+        if axis == 1 && lattice.moving.is_some() && lines.start(line, i) == 0 {
+            return self.length_through_gap(lattice, at, gap);
         }
-        let (from, to) = (lines.start(line, i), lines.end(line, i));
-        match from {
-            0 => self.length_through_gap(lattice, at, gap),
-            _ => bounded_length(lattice, (to - from) as f64, usize::from(to == lines.n)),
-        }
+        lines.chord_length(line, lattice.boundary[axis], i)
     }
 
     /// Whether the chord along y through a voxel goes through the gap.
     pub(crate) fn through_gap(&self, lattice: &Lattice, address: VoxelAddress) -> bool {
-        match address {
-            VoxelAddress::Gap(_) => true,
-            _ if lattice.moving.is_none() => false,
-            VoxelAddress::Below(layer, at) => layer < self.below.column(at),
-            VoxelAddress::Above(layer, at) => layer < self.above.column(at),
-        }
+        let part = &self.0[address.part as usize];
+        lattice.moving.is_some() && address.layer < part.column(address.at)
     }
 
-    /// Chord length along y through the gap at index `at` of the layers.
+    /// Chord length along y through the gap at index `at` of the layers: doubled by a mirror at one end, else unbounded.
     fn length_through_gap(&self, lattice: &Lattice, at: usize, gap: f64) -> f64 {
-        let [low, high] = [&self.below, &self.above].map(|part| {
+        let [below, _, above] = &self.0;
+        let [low, high] = [below, above].map(|part| {
             let voxels = part.column(at);
             (voxels, usize::from(voxels == part.0[1].n))
         });
-        bounded_length(lattice, low.0 as f64 + gap + high.0 as f64, low.1 + high.1)
+        let voxels = low.0 as f64 + gap + high.0 as f64;
+        let length = match (low.1 + high.1, lattice.boundary[1]) {
+            (0, _) => voxels,
+            (1, Boundary::Symmetry) => 2.0 * voxels,
+            _ => LONGEST_CHORD,
+        };
+        length.min(LONGEST_CHORD)
     }
-}
-
-/// Chord length of a run along y that has `at_sides` ends at sides of the domain: doubled by a mirror, else unbounded.
-fn bounded_length(lattice: &Lattice, voxels: f64, at_sides: usize) -> f64 {
-    match (at_sides, lattice.boundary[1]) {
-        (0, _) => voxels,
-        (1, Boundary::Symmetry) => 2.0 * voxels,
-        _ => LONGEST_CHORD,
-    }
-    .min(LONGEST_CHORD)
 }
 
 #[cfg(test)]

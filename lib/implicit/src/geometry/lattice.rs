@@ -3,6 +3,7 @@
 use physics::{Boundary, Dimensions, Motion, RigidBody, Scene, VoxelBlock};
 
 use super::frames::{Frames, check_motions};
+use super::rows::RowKind;
 
 /// Code of an open voxel. Voxels of body `b` have the code `b + 1`.
 pub(crate) const OPEN: u8 = 0;
@@ -15,8 +16,7 @@ pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 /// A layer of voxels at constant y: codes, x fastest.
 type Layer = Vec<u8>;
 
-/// Voxels of a scene, `k` to the edge of a cell, in three parts along y: layers below the gap, counted downwards; the gap,
-/// one layer that stands for all heights; layers above the gap, counted upwards.
+/// Voxels of a scene, `k` to the edge of a cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Lattice {
     /// Voxels along the edge of a cell: 1 or 2.
@@ -26,15 +26,15 @@ pub(crate) struct Lattice {
     pub(crate) boundary: [Boundary; 3],
     /// Plane strain: no velocity along z.
     pub(crate) flat: bool,
-    pub(crate) below: Vec<Layer>,
-    pub(crate) gap: Layer,
-    pub(crate) above: Vec<Layer>,
+    /// The three parts along y, by [`RowKind`](super::RowKind): layers below the gap, counted downwards; the gap, one layer that
+    /// stands for all heights; layers above the gap, counted upwards.
+    pub(crate) layers: [Vec<Layer>; 3],
     /// At the start: y of the low side of the gap, m, and the height of the gap, cells.
     pub(crate) gap_low_m: f64,
     pub(crate) gap_height: f64,
     /// The body that moves along y at the closing speed.
     pub(crate) moving: Option<Moving>,
-    /// Tangential velocity of each body as a sliding wall, cells/s; zero for the moving body.
+    /// Velocity of each body as a sliding wall, cells/s, of which only the part along its walls is used.
     pub(crate) slide: Vec<[f64; 3]>,
 }
 
@@ -106,21 +106,15 @@ impl Lattice {
             (0..across[0] * across[1]).map(|i| code(at(i))).collect()
         };
         let [bottom, top] = frames.gap;
-        let below: Vec<Layer> = (0..layers(low, bottom))
-            .map(|n| layer(bottom - (n as f64 + 0.5) * edge))
-            .collect();
-        let above: Vec<Layer> = (0..layers(top, high))
-            .map(|n| layer(top + (n as f64 + 0.5) * edge))
-            .collect();
+        let below = (0..layers(low, bottom)).map(|n| layer(bottom - (n as f64 + 0.5) * edge));
+        let above = (0..layers(top, high)).map(|n| layer(top + (n as f64 + 0.5) * edge));
         let gap = layer(0.5 * (bottom + top));
         Ok(Self {
             k,
             cells: [grid.cells[0], grid.cells[2]],
             boundary: scene.boundary,
             flat: scene.dimensions == Dimensions::Two,
-            below,
-            gap,
-            above,
+            layers: [below.collect(), vec![gap], above.collect()],
             gap_low_m: bottom,
             gap_height: (top - bottom) / grid.cell_m,
             moving: frames.moving,
@@ -166,9 +160,11 @@ impl Lattice {
             cells,
             boundary,
             flat: false,
-            below: Vec::new(),
-            gap: vec![OPEN; cells[0] * cells[1] * k * k],
-            above,
+            layers: [
+                Vec::new(),
+                vec![vec![OPEN; cells[0] * cells[1] * k * k]],
+                above,
+            ],
             gap_low_m: 0.0,
             gap_height: 0.0,
             moving: None,
@@ -176,14 +172,10 @@ impl Lattice {
         }
     }
 
-    /// Whether a body moves along y.
-    pub(crate) fn is_moving(&self, body: usize) -> bool {
-        self.moving.is_some_and(|moving| moving.body == body)
-    }
-
     /// Whether bodies stand in the gap, as the side walls of a piston do.
     pub(crate) fn gap_has_walls(&self) -> bool {
-        self.gap.iter().any(|&code| code != OPEN && code != MIRROR)
+        let mut gap = self.layers[RowKind::Gap as usize].iter().flatten();
+        gap.any(|&code| code != OPEN && code != MIRROR)
     }
 
     /// Velocity of a body along y per unit of closing speed.
@@ -235,13 +227,12 @@ impl super::mesh::Mesh {
 
     /// The rows of that column from `start` on.
     pub(crate) fn column_from([below, above]: [usize; 2], gap: usize, start: usize) -> Self {
-        let layers = |n: usize| vec![vec![OPEN]; n];
         let (body, down) = (0, true);
         let lattice = Lattice {
-            below: layers(below),
+            layers: [below, 1, above].map(|n| vec![vec![OPEN]; n]),
             gap_height: gap as f64,
             moving: Some(Moving { body, down }),
-            ..Lattice::still(1, [1, 1], [Boundary::Symmetry; 3], layers(above))
+            ..Lattice::still(1, [1, 1], [Boundary::Symmetry; 3], Vec::new())
         };
         let rows = lattice.rows();
         Self::whole(&lattice, rows, start..rows.len())

@@ -267,25 +267,31 @@ impl Mesh {
         })
     }
 
-    /// The pores that are connected to `first` through pores for which `within` holds. Marks them in `found`, and skips
-    /// those marked.
-    pub(crate) fn connected(
-        &self,
-        first: usize,
-        within: &impl Fn(usize) -> bool,
-        found: &mut [bool],
-    ) -> Vec<u32> {
-        let (mut pores, mut next) = (vec![first as u32], 0);
-        found[first] = true;
-        while let Some(&pore) = pores.get(next) {
-            next += 1;
-            for Neighbour { pore: beside, .. } in self.neighbours(pore as usize) {
-                if within(beside) && !std::mem::replace(&mut found[beside], true) {
-                    pores.push(beside as u32);
+    /// Sum of the fluxes through the faces of a pore, those into it negative.
+    pub(crate) fn net_outflow(&self, pore: usize, flux: impl Fn(usize) -> f64) -> f64 {
+        let neighbours = self.neighbours(pore);
+        neighbours.map(|at| at.sign() * flux(at.face)).sum()
+    }
+
+    /// The sets of connected pores for which `within` holds.
+    pub(crate) fn components(&self, within: impl Fn(usize) -> bool) -> Vec<Vec<u32>> {
+        let (mut found, mut sets) = (vec![false; self.pores.len()], Vec::new());
+        for first in (0..found.len()).filter(|&pore| within(pore)) {
+            if std::mem::replace(&mut found[first], true) {
+                continue;
+            }
+            let (mut pores, mut next) = (vec![first as u32], 0);
+            while let Some(&pore) = pores.get(next) {
+                next += 1;
+                for Neighbour { pore: beside, .. } in self.neighbours(pore as usize) {
+                    if within(beside) && !std::mem::replace(&mut found[beside], true) {
+                        pores.push(beside as u32);
+                    }
                 }
             }
+            sets.push(pores);
         }
-        pores
+        sets
     }
 
     /// Cell of a pore.

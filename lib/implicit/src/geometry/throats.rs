@@ -3,6 +3,7 @@
 use super::chords::{Chords, LONGEST_CHORD, VoxelAddress};
 use super::lattice::{Lattice, OPEN};
 use super::mesh::{Mesh, others};
+use super::rows::RowKind;
 
 /// Largest ratio of the chord lengths of neighbouring voxels within one throat. In a disc the ratio is smaller; where a lumen
 /// opens into the bond line it is larger.
@@ -100,19 +101,12 @@ impl ThroatView<'_> {
         let is_wet = |&(cell, voxel): &Voxel| self.mesh.pore_at(cell, voxel).is_some_and(wet);
         (0..axes).filter(|&a| a != axis).any(|a| {
             [false, true].into_iter().any(|up| {
-                let mut voxels = Some(voxels);
-                for _ in 0..=length as usize {
-                    let Some(at) = voxels else { break };
-                    if at.iter().all(is_wet) {
-                        return true;
-                    }
-                    let next = at.map(|at| step(at, a, up));
-                    voxels = match next {
+                let parallel =
+                    std::iter::successors(Some(voxels), |at| match at.map(|at| step(at, a, up)) {
                         [Some(a), Some(b), Some(c), Some(d)] => Some([a, b, c, d]),
                         _ => None,
-                    };
-                }
-                false
+                    });
+                (parallel.take(length as usize + 1)).any(|at| at.iter().all(is_wet))
             })
         })
     }
@@ -145,8 +139,8 @@ impl ThroatView<'_> {
 
     /// Thickness of an addressed voxel along an axis, voxels: at each x and z the gap is one address.
     fn thickness(&self, address: VoxelAddress, axis: usize) -> f64 {
-        match address {
-            VoxelAddress::Gap(_) if axis == 1 => self.gap,
+        match (address.part, axis) {
+            (RowKind::Gap, 1) => self.gap,
             _ => 1.0,
         }
     }
@@ -168,26 +162,18 @@ impl ThroatView<'_> {
                 _ => None,
             }
         };
-        let beyond = |layer: usize, away: bool| layer.checked_add_signed(if away { 1 } else { -1 });
-        let next = match (address, axis, up) {
-            (VoxelAddress::Gap(at), 1, true) => VoxelAddress::Above(0, at),
-            (VoxelAddress::Gap(at), 1, false) => VoxelAddress::Below(0, at),
-            (VoxelAddress::Below(0, at), 1, true) | (VoxelAddress::Above(0, at), 1, false)
-                if self.lattice.moving.is_some() =>
-            {
-                VoxelAddress::Gap(at)
-            }
-            (VoxelAddress::Below(layer, at), 1, up) => VoxelAddress::Below(beyond(layer, !up)?, at),
-            (VoxelAddress::Above(layer, at), 1, up) => VoxelAddress::Above(beyond(layer, up)?, at),
-            (VoxelAddress::Gap(at), ..) => VoxelAddress::Gap(shifted(at)?),
-            (VoxelAddress::Below(layer, at), ..) => VoxelAddress::Below(layer, shifted(at)?),
-            (VoxelAddress::Above(layer, at), ..) => VoxelAddress::Above(layer, shifted(at)?),
+        let VoxelAddress { part, layer, at } = address;
+        let away = up == (part == RowKind::Above);
+        let (part, layer, at) = match part {
+            _ if axis != 1 => (part, layer, shifted(at)?),
+            RowKind::Gap if up => (RowKind::Above, 0, at),
+            RowKind::Gap => (RowKind::Below, 0, at),
+            _ if away => (part, layer + 1, at),
+            _ if layer > 0 => (part, layer - 1, at),
+            _ if self.lattice.moving.is_some() => (RowKind::Gap, 0, at),
+            _ => return None,
         };
-        let code = match next {
-            VoxelAddress::Gap(at) => self.lattice.gap.get(at),
-            VoxelAddress::Below(layer, at) => self.lattice.below.get(layer).and_then(|l| l.get(at)),
-            VoxelAddress::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
-        };
-        (code == Some(&OPEN)).then_some(next)
+        let code = self.lattice.layers[part as usize].get(layer)?[at];
+        (code == OPEN).then_some(VoxelAddress { part, layer, at })
     }
 }

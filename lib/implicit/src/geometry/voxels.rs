@@ -39,17 +39,14 @@ impl Mesh {
         let at = x + across[0] * z;
         let row = y + self.range.start;
         let (b, rows) = (voxel[1], self.rows());
-        match rows.kind(row) {
-            RowKind::Below => {
-                let layer = (rows.below - 1 - row) * self.k + (self.k - 1 - b);
-                (layer < lattice.below.len()).then_some(VoxelAddress::Below(layer, at))
-            }
-            RowKind::Gap => Some(VoxelAddress::Gap(at)),
-            RowKind::Above => {
-                let layer = (row - rows.below - rows.gap) * self.k + b;
-                (layer < lattice.above.len()).then_some(VoxelAddress::Above(layer, at))
-            }
-        }
+        let part = rows.kind(row);
+        let layer = match part {
+            RowKind::Below => (rows.below - 1 - row) * self.k + (self.k - 1 - b),
+            RowKind::Gap => 0,
+            RowKind::Above => (row - rows.below - rows.gap) * self.k + b,
+        };
+        let exists = layer < lattice.layers[part as usize].len();
+        exists.then_some(VoxelAddress { part, layer, at })
     }
 
     /// Positions in their cell of the voxels of a pore.
@@ -102,9 +99,7 @@ impl Mesh {
     /// Code of a voxel of a cell, looked up in the lattice.
     pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
         match self.lattice_address(lattice, self.cell_indices(cell), voxel) {
-            Some(VoxelAddress::Below(layer, at)) => lattice.below[layer][at],
-            Some(VoxelAddress::Gap(at)) => lattice.gap[at],
-            Some(VoxelAddress::Above(layer, at)) => lattice.above[layer][at],
+            Some(VoxelAddress { part, layer, at }) => lattice.layers[part as usize][layer][at],
             None if self.boundary[1] == Boundary::Open || self.is_ghost(cell) => OPEN,
             None => MIRROR,
         }

@@ -56,10 +56,6 @@ fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let side = |i: usize| {
         let (cell, part) = (i / k, (i % k) as f64 / k as f64);
         match axis {
-            1 if i == k * mesh.size[1] => {
-                let row = mesh.range.end - 1;
-                mesh.rows().low(row) + mesh.rows().height_of(row)
-            }
             1 => {
                 let row = cell + mesh.range.start;
                 mesh.rows().low(row) + part * mesh.rows().height_of(row)

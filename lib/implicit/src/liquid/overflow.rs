@@ -124,12 +124,11 @@ fn outlets(
         let straight: f64 = (mesh.faces_at(pore, neighbour.axis, !neighbour.up))
             .map(|face| (sign * flux[face]).max(0.0))
             .sum();
-        let side = mesh.faces_at(pore, neighbour.axis, neighbour.up);
-        let side = side.map(|face| mesh.area(face));
         Outlet {
             neighbour,
             outflow: (sign * swept[neighbour.face]).max(0.0),
-            straight: straight * area / side.sum::<f64>(),
+            straight: straight
+                * mesh.area_share(neighbour.face, pore, neighbour.axis, neighbour.up),
             inflow: (-sign * flux[neighbour.face]).max(0.0),
             area,
             free: free(neighbour.pore),

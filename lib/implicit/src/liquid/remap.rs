@@ -186,24 +186,18 @@ fn pores_beside_closed_gap(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
     let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == RowKind::Gap;
     let mut visited = HashSet::from([pore]);
     let mut front = vec![pore];
-    while !front.is_empty() {
+    loop {
         let found: Vec<usize> = (front.iter())
             .flat_map(|&pore| above_and_below(new, old, pore))
             .collect();
-        if !found.is_empty() {
+        if !found.is_empty() || front.is_empty() {
             return found;
         }
         let beside = front.iter().flat_map(|&pore| old.neighbours(pore));
-        let next: Vec<usize> = beside
-            .map(|neighbour| neighbour.pore)
-            .filter(|&pore| in_gap(pore))
-            .collect();
-        front = next
-            .into_iter()
-            .filter(|&pore| visited.insert(pore))
+        front = (beside.map(|neighbour| neighbour.pore))
+            .filter(|&pore| in_gap(pore) && visited.insert(pore))
             .collect();
     }
-    Vec::new()
 }
 
 /// The pores directly above and below a pore of a gap that has closed, once for each voxel.

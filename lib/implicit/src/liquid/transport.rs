@@ -96,9 +96,7 @@ fn advect_substep(
     volumes
         .par_iter_mut()
         .enumerate()
-        .for_each(|(pore, volume)| {
-            *volume += net_inflow(mesh, &flux, pore);
-        });
+        .for_each(|(pore, volume)| *volume -= mesh.net_outflow(pore, |face| flux[face]));
     return_overdraft(mesh, volumes, &mut flux);
     overflow(mesh, volumes, capacities, full, swept, &mut flux);
     if !water.is_empty() {
@@ -201,11 +199,4 @@ fn outflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
         .neighbours(pore)
         .map(|neighbour| (neighbour.sign() * flux[neighbour.face]).max(0.0));
     out.sum::<f64>().max(f64::MIN_POSITIVE)
-}
-
-/// Sum of the fluxes into a pore less those out of it.
-fn net_inflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
-    mesh.neighbours(pore)
-        .map(|neighbour| -neighbour.sign() * flux[neighbour.face])
-        .sum()
 }

@@ -56,7 +56,7 @@ impl Implicit {
             &self.void(),
             &self.state.air.mass,
             // Under a clamp both sides normal to y are outside (docs/methods.md section 3.13).
-            self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
+            self.setup.clamp.is_some() || self.setup.lattice.boundary[1] == Boundary::Open,
         );
         for pocket in air.pockets.iter_mut().chain(&mut air.dry) {
             pocket.tangent = gas.tangent(pocket.mass, pocket.volume, dt);
@@ -117,17 +117,11 @@ impl Implicit {
         };
         let lowest = -tension / self.setup.units.viscosity;
         let mesh = &self.mesh;
-        let outflow = |pore: usize| -> f64 {
-            let each = mesh.neighbours(pore);
-            each.map(|neighbour| {
-                neighbour.sign() * mesh.area(neighbour.face) * flow.velocity[neighbour.face]
-            })
-            .sum()
-        };
+        let outflow = |face: usize| mesh.area(face) * flow.velocity[face];
         let mut changed = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
-                true => outflow(pore) * dt > DRIFT,
+                true => mesh.net_outflow(pore, outflow) * dt > DRIFT,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
             changed |= now != *torn;

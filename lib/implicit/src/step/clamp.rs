@@ -1,7 +1,7 @@
 //! The clamp in a step: its speed under a pressure limit, and the step length that ends its travel (docs/methods.md sections
 //! 3.1 and 3.7).
 
-use physics::StepLimit;
+use physics::{PressRun, StepLimit};
 
 use super::Implicit;
 use super::drive::LoadControl;
@@ -81,7 +81,8 @@ impl Implicit {
 
     /// Travel that is left, cells, at most the gap; infinite in a programme whose clamp has closed and now stands or retreats.
     pub(super) fn travel_left(&self, limit: StepLimit) -> f64 {
-        if self.state.drive.is_closed() {
+        let programme = self.state.drive.programme.as_ref();
+        if programme.is_some_and(PressRun::is_closed) {
             return f64::INFINITY;
         }
         let travel = limit.travel_m / self.setup.units.cell_m;

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use physics::{Motion, StepLimit, StepReport};
+use physics::{StepLimit, StepReport};
 
 use super::Implicit;
 use super::exchange::WaterExchange;
@@ -44,7 +44,6 @@ impl Implicit {
             .clamp(1.0, MAX_FORESEEN_GROWTH);
         state.courant_speed = courant_speed;
         state.unsettled += u64::from(!settled);
-        state.dissipation = flow.dissipation;
         state.time += dt;
         state.dt = dt;
         state.steps += 1;
@@ -52,9 +51,9 @@ impl Implicit {
         self.move_bodies(travel, dt);
         let pressure = |body: Option<usize>, sign: f64| {
             body.map_or(0.0, |body| {
-                let force = match self.setup.lattice.is_moving(body) {
-                    true => -sign * self.setup.lattice.body_speed(body) * flow.force,
-                    false => sign * forces[body],
+                let force = match self.setup.lattice.body_speed(body) {
+                    0.0 => sign * forces[body],
+                    speed => -sign * speed * flow.force,
                 };
                 self.setup.pressure(force)
             })
@@ -135,15 +134,10 @@ impl Implicit {
     fn move_bodies(&mut self, travel: f64, dt: f64) {
         let (lattice, cell_m) = (&self.setup.lattice, self.setup.units.cell_m);
         for (body, displacement) in self.state.displacement.iter_mut().enumerate() {
-            let slide = match self.setup.motions[body] {
-                Motion::Constant(velocity) => velocity,
-                _ => [0.0; 3],
-            };
+            let [x, _, z] = lattice.slide[body].map(|v| v * dt);
+            let moved = [x, lattice.body_speed(body) * travel, z];
             for a in 0..3 {
-                displacement[a] += slide[a] * dt;
-            }
-            if lattice.is_moving(body) {
-                displacement[1] += lattice.body_speed(body) * travel * cell_m - slide[1] * dt;
+                displacement[a] += moved[a] * cell_m;
             }
         }
     }

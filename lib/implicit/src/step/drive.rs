@@ -1,6 +1,6 @@
 //! Speed of the moving body: constant, or that of a clamp under load control or a press programme.
 
-use physics::{CONTROLLED, Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
+use physics::{CONTROLLED, Clamp, PidControl, Press, PressRun, PressStep, breaks};
 
 use crate::settings::ITERATION_TOLERANCE;
 
@@ -59,7 +59,7 @@ impl LoadControl {
 pub(super) struct ClampDrive {
     control: Control,
     /// The press programme that sets the control, if there is one.
-    programme: Option<PressRun>,
+    pub(super) programme: Option<PressRun>,
     /// Closing speed now, m/s.
     pub(super) speed: f64,
     /// Number of steps that exceeded the pressure limit, and the pressure of the last step if it did, Pa.
@@ -96,29 +96,6 @@ impl ClampDrive {
             programme,
             violations: (0, 0.0),
         }
-    }
-
-    /// The press programme and its state.
-    pub(super) fn programme(&self) -> Option<&PressRun> {
-        self.programme.as_ref()
-    }
-
-    /// Whether a programme goes on with the clamp at the end of its travel.
-    pub(super) fn is_closed(&self) -> bool {
-        self.programme.as_ref().is_some_and(PressRun::is_closed)
-    }
-
-    /// Retreat speed of the clamp, m/s, in a stage that begins below the pressure reached, so that the clamp may retreat at
-    /// once.
-    pub(super) fn retreat_speed(&self) -> Option<f64> {
-        let programme = self.programme.as_ref().filter(|run| run.gives_way());
-        programme.map(|run| run.stage().speed)
-    }
-
-    /// `limit`, shortened to the current stage, for a clamp that has travelled `travel` (m).
-    pub(super) fn bounded_by_stage(&self, limit: StepLimit, travel: f64) -> StepLimit {
-        let programme = self.programme.as_ref();
-        programme.map_or(limit, |programme| programme.within(limit, travel))
     }
 
     /// Sets the pressure limit to that of the programme `ahead` (s) of now. Under an active limit the estimated speed
@@ -248,14 +225,6 @@ impl ClampDrive {
             }
             (Control::Free, _) => {}
         }
-    }
-
-    /// Restores the saved state of the programme.
-    ///
-    /// # Errors
-    /// A sentence where the state is none of this programme's.
-    pub(super) fn set_programme(&mut self, state: &[f64]) -> Result<(), String> {
-        (self.programme.as_mut()).map_or(Ok(()), |programme| programme.set_state(state))
     }
 }
 

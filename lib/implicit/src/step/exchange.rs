@@ -1,9 +1,5 @@
-//! Water that moves in a step: by diffusion between pores, and at a given rate into walls until the liquid reaches the limit.
-//!
-//! X, water over solids by volume, obeys in each pore V_s (X - X_0) = sum K (X_n - X) - q, X >= X_min. V_s is the volume of the
-//! solids; K = D dt/h^2 A/L (1 - f) with f the water fraction, A the liquid area and L the distance between two pores; q is the
-//! uptake of the wetted walls in the step, the whole demand where X > X_min. Velocities are those of the solids, relative to
-//! which water diffuses at D (1 - f) grad X.
+//! Water that moves in a step: by diffusion between pores, and into walls (docs/methods.md section 3.11). Velocities are those of
+//! the solids, relative to which water diffuses at D (1 - F) grad X.
 
 use physics::Water;
 

@@ -103,13 +103,8 @@ impl Implicit {
             return 0.0;
         }
         let (mesh, volumes) = (&self.mesh, &self.state.volumes);
-        let mut found = full.to_vec();
         let (mut excess, mut all) = (0.0, f64::MIN_POSITIVE);
-        for first in 0..full.len() {
-            if found[first] {
-                continue;
-            }
-            let void = mesh.connected(first, &|pore| !full[pore], &mut found);
+        for void in mesh.components(|pore| !full[pore]) {
             let (mut inflow, mut free) = (0.0, 0.0);
             for pore in void.iter().map(|&pore| pore as usize) {
                 free += self.capacity(pore, end) - volumes[pore];

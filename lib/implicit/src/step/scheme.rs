@@ -35,7 +35,7 @@ impl Scheme for Implicit {
                 * self.setup.liquid.density
                 * units.volume()
                 * units.cell_m.powi(2),
-            viscous_power: self.state.dissipation * units.force() * units.cell_m,
+            viscous_power: self.state.flow.dissipation * units.force() * units.cell_m,
             volume: volume * units.volume(),
             max_speed: self.state.courant_speed * units.cell_m,
             capped_fraction: 0.0,
@@ -65,7 +65,7 @@ impl Scheme for Implicit {
             state.courant_speed,
             state.growth,
             state.lost,
-            state.dissipation,
+            state.flow.dissipation,
             state.unsettled as f64,
             state.flow.speed,
             state.flow.force,
@@ -89,7 +89,7 @@ impl Scheme for Implicit {
                 Array::F64(state.displacement.as_flattened().to_vec()),
             ),
         ];
-        let programme = state.drive.programme().map(PressRun::state);
+        let programme = state.drive.programme.as_ref().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME, Array::F64(state))));
         arrays.extend(self.save_air());
         arrays.extend(self.save_water());
@@ -161,20 +161,20 @@ impl Scheme for Implicit {
         let displacement = displacement.as_chunks::<3>().0.to_vec();
         let (motions, cell_m) = (&self.setup.motions, self.setup.units.cell_m);
         restored::check_bodies(motions, &displacement, travel, cell_m)?;
-        if self.state.drive.programme().is_some() {
+        if let Some(programme) = &mut self.state.drive.programme {
             let state = saved.f64s(PROGRAMME)?;
             restored::check_finite(state, PROGRAMME)?;
-            self.state.drive.set_programme(state)?;
+            programme.set_state(state)?;
         }
         self.state.drive.set_state(drive);
         let state = &mut self.state;
         (state.travel, state.time, state.steps) = (travel, time, steps as u64);
         (state.courant_speed, state.growth) = (courant_speed, growth);
-        (state.lost, state.dissipation) = (lost, dissipation);
-        state.unsettled = unsettled as u64;
+        (state.lost, state.unsettled) = (lost, unsettled as u64);
         (state.volumes, state.air, state.water) = (volumes, air, balance);
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
+        state.flow.dissipation = dissipation;
         state.displacement = displacement;
         (self.mesh, self.height) = (mesh, height);
         self.rebuild_walls(&FaceMap::default());
@@ -194,7 +194,11 @@ impl Scheme for Implicit {
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let mut counts = self.air_counts();
-        if self.setup.limited {
+        if self
+            .setup
+            .clamp
+            .is_some_and(|clamp| clamp.max_pressure.is_some())
+        {
             counts.push((
                 "steps above the pressure limit",
                 self.state.drive.violations.0,
@@ -205,7 +209,7 @@ impl Scheme for Implicit {
     }
 
     fn programme(&self) -> Option<&PressRun> {
-        self.state.drive.programme()
+        self.state.drive.programme.as_ref()
     }
 
     fn follows_points(&self) -> bool {

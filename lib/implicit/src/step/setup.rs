@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
+use physics::{Clamp, Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
 use super::drive::ClampDrive;
 use super::remesh::MARGIN;
@@ -50,9 +50,7 @@ pub(super) struct Setup {
     pub(super) points_per_cell: f64,
     /// Reference area of pressures, the cross-section of the domain, m2.
     area: f64,
-    /// Whether there is a clamp, and whether it has a pressure limit.
-    pub(super) clamped: bool,
-    pub(super) limited: bool,
+    pub(super) clamp: Option<Clamp>,
     /// The gas law of pockets; `None` where all air is ambient.
     pub(super) gas: Option<Gas>,
     /// Whether each body absorbs water.
@@ -107,10 +105,7 @@ impl Setup {
                 let tait = scene.liquid.tait;
                 Gas::new(pressure, settings.air_leak_time, tait, units.viscosity)
             }),
-            clamped: scene.clamp.is_some(),
-            limited: scene
-                .clamp
-                .is_some_and(|clamp| clamp.max_pressure.is_some()),
+            clamp: scene.clamp,
             motions: scene.bodies.iter().map(|body| body.motion).collect(),
             absorbs: (scene.bodies.iter())
                 .map(|body| {
@@ -237,11 +232,11 @@ impl Lattice {
     /// The rows of the grid at the start.
     pub(crate) fn rows(&self) -> Rows {
         let open = usize::from(self.boundary[1] == physics::Boundary::Open);
-        let cells = |layers: usize| layers.div_ceil(self.k);
+        let [below, _, above] = (self.layers.each_ref()).map(|part| part.len().div_ceil(self.k));
         let below = match self.moving {
-            Some(_) => cells(self.below.len()) + open,
+            Some(_) => below + open,
             None => open,
         };
-        Rows::of_gap(below, cells(self.above.len()) + open, self.gap_height)
+        Rows::of_gap(below, above + open, self.gap_height)
     }
 }

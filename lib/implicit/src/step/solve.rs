@@ -8,7 +8,7 @@ use super::compression::Compression;
 use super::exchange::WaterExchange;
 use super::mid_step::MidStep;
 use crate::air::Air;
-use crate::clock::{Clock, Stage};
+use crate::clock::Stage;
 use crate::system::{
     Drive, Flow, FlowField, MAX_PASSES, Problem, Unknowns, Viscosities, ViscosityIteration, forces,
     solve,
@@ -34,26 +34,12 @@ impl Implicit {
     /// Solves the flow with the moving body driven by `drive`. Iterates until viscosity, compression, air and torn pores are
     /// consistent with the flow.
     pub(super) fn solve_driven(
-        &mut self,
-        middle: &MidStep,
-        drive: Drive,
-        start: &mut Flow,
-    ) -> Result<Solved, String> {
-        let mut clock = take(&mut self.clock);
-        let solved = self.iterate(middle, drive, start, &mut clock);
-        self.clock = clock;
-        solved
-    }
-
-    /// As [`Self::solve_driven`], with the clock apart from `self`.
-    fn iterate(
         &self,
         middle: &MidStep,
         drive: Drive,
         start: &mut Flow,
-        clock: &mut Clock,
     ) -> Result<Solved, String> {
-        let (setup, mesh, dt) = (&self.setup, &self.mesh, middle.dt);
+        let (setup, mesh, clock, dt) = (&self.setup, &self.mesh, &self.clock, middle.dt);
         let fractions = &middle.fractions;
         let mut torn = vec![false; mesh.pores.len()];
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
@@ -74,7 +60,7 @@ impl Implicit {
             let holds;
             let driven = (middle, drive);
             (flow, forces, holds) =
-                self.solve_once(driven, &unknowns, viscosities, surface, previous, clock)?;
+                self.solve_once(driven, &unknowns, viscosities, surface, previous)?;
             iterations += flow.iterations;
             let begun = Instant::now();
             settled = holds;
@@ -147,7 +133,6 @@ impl Implicit {
         viscosities: &Viscosities,
         (torn, air): (&[bool], Option<&Air>),
         mut start: Flow,
-        clock: &mut Clock,
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let (dt, full, fractions) = (middle.dt, &middle.full, &middle.fractions);
@@ -186,15 +171,9 @@ impl Implicit {
                 *excess_rate += exchange.gained[pore] / dt;
             }
         }
-        let flow = solve(
-            &problem,
-            excess_rate,
-            drive,
-            &mut start,
-            &self.solver,
-            clock,
-        )
-        .map_err(|error| self.unsolved(&error))?;
+        let (solver, clock) = (&self.solver, &self.clock);
+        let flow = solve(&problem, excess_rate, drive, &mut start, solver, clock)
+            .map_err(|error| self.unsolved(&error))?;
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());
         let holds = compression.obeys_law(&unknowns.pores, &start.pressure, &flow.pressure);

@@ -152,35 +152,34 @@ impl Problem<'_> {
         self.add_dynamic_angle(face, entries);
     }
 
-    /// Right-hand sides of the momentum equations, six for each face with a velocity:
+    /// Right-hand sides of the momentum equations, five for each face with a velocity:
     /// 0. known forces;
     /// 1. forces per closing speed;
-    /// 2. static part of 0: weight, menisci, gas;
+    /// 2. static part of 0: weight, menisci, gas, and 4;
     /// 3. known force on the moving body, by inertia and weight of the liquid in the moving rows;
-    /// 4. and 5. the parts of 0 and 1 that only make viscous liquid follow its walls ([`clinging_share`]).
-    pub(crate) fn right_hand_sides(&self) -> [Vec<f64>; 6] {
-        let sides: Vec<[f64; 6]> = (self.unknowns.faces.par_iter())
-            .map(|&face| self.right_hand_side(face as usize))
+    /// 4. the part of 0, and of 1 at the closing `speed`, that only makes viscous liquid follow its walls ([`clinging_share`]).
+    pub(crate) fn right_hand_sides(&self, speed: f64) -> [Vec<f64>; 5] {
+        let sides: Vec<[f64; 5]> = (self.unknowns.faces.par_iter())
+            .map(|&face| self.right_hand_side(face as usize, speed))
             .collect();
         std::array::from_fn(|i| sides.iter().map(|side| side[i]).collect())
     }
 
     /// Right-hand sides of one face, in the order of [`Self::right_hand_sides`].
-    fn right_hand_side(&self, face: usize) -> [f64; 6] {
+    fn right_hand_side(&self, face: usize, speed: f64) -> [f64; 5] {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
         let mass = self.masses[face];
         let inertia = self.coefficients.inertia * mass;
         let standing = self.coefficients.gravity[axis] * mass + self.front_force(face);
         let known = inertia * self.before[face] + standing;
-        let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
+        let mut force = [known, 0.0, standing, 0.0, 0.0];
         let (coupling, weights) = self.walls(face);
         let etas = self.viscosities.at_walls(face, f.pores());
         for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(coupling.sliding) {
             force[0] += weight * own;
             force[1] += weight * closing;
-            force[4] += clinging_share(eta) * weight * own;
-            force[5] += clinging_share(eta) * weight * closing;
+            force[4] += clinging_share(eta) * weight * (own + speed * closing);
         }
         if axis == 1 && self.lattice.moving.is_some() {
             let grid = self.mesh.grid_velocity(self.lattice, face);
@@ -193,11 +192,12 @@ impl Problem<'_> {
                     if term.other.is_none_or(|other| self.moves(other)) {
                         let squeezed = stiffness * term.weight * term.closing;
                         force[1] += squeezed;
-                        force[5] += clinging_share(self.viscosities.pores[pore]) * squeezed;
+                        force[4] += clinging_share(self.viscosities.pores[pore]) * speed * squeezed;
                     }
                 });
             }
         }
+        force[2] += force[4];
         force
     }
 

@@ -84,14 +84,6 @@ pub(crate) struct Channels<'a> {
     pub(crate) influence_length: f64,
 }
 
-/// A voxel column of a face along a tangential axis, with lengths over the edge of the cell along that axis.
-struct Column {
-    /// Open height h1.
-    height: f64,
-    /// Channel widths along the column, H_t, and across it, H_a.
-    widths: [f64; 2],
-}
-
 impl Channels<'_> {
     /// Whether the coupling of a face depends on the height of the gap.
     fn depends_on_gap(&self, face: usize) -> bool {
@@ -180,11 +172,8 @@ impl Channels<'_> {
             if !walled {
                 continue;
             }
-            let column = Column {
-                height,
-                // With two voxels a cell, columns account for walls on the other axis by themselves.
-                widths: [along, if k == 1 { width(across) } else { along }],
-            };
+            // With two voxels a cell, columns account for walls on the other axis by themselves.
+            let widths = [along, if k == 1 { width(across) } else { along }];
             // Past the corner of a wall, liquid shears against the face that the wall closes.
             for (code, (_, up)) in both[1 - half].into_iter().zip(corner) {
                 let open = ends[usize::from(up)] == OPEN;
@@ -192,7 +181,7 @@ impl Channels<'_> {
                     .next_cell(cell, t, up)
                     .filter(|_| open && is_wall(code))
                 {
-                    let apart = 0.5 * (column.height * edges[t] + mesh.cell_edge(next, t));
+                    let apart = 0.5 * (height * edges[t] + mesh.cell_edge(next, t));
                     coupling.add(half, part / apart, self.wall_velocity(code, face, axis));
                 }
             }
@@ -203,7 +192,7 @@ impl Channels<'_> {
             for (code, (i, up)) in ends.into_iter().zip(corner).filter(|end| is_wall(end.0)) {
                 let at = (cell, voxel(half, i));
                 let step_proximity = mesh.step_proximity(at, [t, across], up);
-                let distance = edges[t] * self.distance(&column, between, step_proximity);
+                let distance = edges[t] * self.distance(height, widths, between, step_proximity);
                 let lowest = if axis == 1 {
                     1.0
                 } else {
@@ -218,7 +207,7 @@ impl Channels<'_> {
                 coupling.add(half, friction, self.wall_velocity(code, face, axis));
                 coupling.area += part;
                 let shared = if between { 0.5 } else { 1.0 };
-                coupling.height += part * shared * column.height * edges[t];
+                coupling.height += part * shared * height * edges[t];
                 coupling.body = code;
             }
         }
@@ -233,7 +222,8 @@ impl Channels<'_> {
     }
 
     /// Effective distance d_w of a column from its walls, which makes the flux of plane Poiseuille flow exact for every open
-    /// height h1 of the column in a channel of width H.
+    /// height `h1` of the column in a channel of width H. Lengths are over the edge of the cell along the column; the channel
+    /// widths are those `along` the column, H_t, and `across` it, H_a.
     ///
     /// Derivation. The velocity is the mean over a column of height h1 at the wall. Between plates the profile is u = g (x -
     /// x^2/H) with the slope g at the wall; its mean there is g (h1/2 - h1^2/(3 H)). Differences of means over equal heights
@@ -244,9 +234,13 @@ impl Channels<'_> {
     ///
     /// A column between two walls has the mean g H/6, so that d = H/6. Beside steps flow is not that between plates, and the
     /// defect is reduced by the factor 1 - `step_proximity`.
-    fn distance(&self, column: &Column, between: bool, step_proximity: f64) -> f64 {
-        let h1 = column.height;
-        let [along, across] = column.widths;
+    fn distance(
+        &self,
+        h1: f64,
+        [along, across]: [f64; 2],
+        between: bool,
+        step_proximity: f64,
+    ) -> f64 {
         if between {
             return along / 6.0;
         }

@@ -38,15 +38,8 @@ impl Equations {
     ) -> Result<Self, SolveError> {
         let (unknowns, coefficients) = (problem.unknowns, &problem.coefficients);
         let (a, g) = (problem.velocity_block()?, problem.outflow()?);
-        let [known, closing, mut standing, force_on_body, own, clinging] =
-            problem.right_hand_sides();
-        let speed = drive.speed();
-        let mut clinging: Vec<f64> = (own.iter().zip(&clinging))
-            .map(|(known, closing)| known + speed * closing)
-            .collect();
-        for (standing, clinging) in standing.iter_mut().zip(&clinging) {
-            *standing += clinging;
-        }
+        let [known, closing, mut standing, force_on_body, mut clinging] =
+            problem.right_hand_sides(drive.speed());
         for forces in [&mut standing, &mut clinging] {
             if forces.iter().all(|&force| force == 0.0) {
                 *forces = Vec::new();

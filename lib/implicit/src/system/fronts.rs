@@ -171,36 +171,19 @@ impl FrontView<'_> {
     /// Delta/2 of docs/methods.md section 3.12: half of the fall of perimeter over area for a meniscus that moves from `wet`
     /// into `dry` along an axis, to the pores ahead and to empty ones along the front.
     fn hysteresis(&self, axis: usize, up: bool, wet: usize, dry: usize) -> f64 {
-        let here = self.perimeter_over_area[dry];
-        let (mut behind, mut ahead) = (
-            [
-                here.min(self.perimeter_over_area[wet]),
-                here.max(self.perimeter_over_area[wet]),
-            ],
-            [here; 2],
-        );
+        // A non-wetting liquid is repelled by narrower throats.
+        let sign = if self.wetting.cosine > 0.0 { 1.0 } else { -1.0 };
+        let pull = |pore: usize| sign * self.perimeter_over_area[pore];
+        let (mut behind, mut ahead) = (pull(dry).max(pull(wet)), pull(dry));
         for neighbour in self.mesh.neighbours(dry) {
-            let beside = neighbour.pore;
-            let perimeter_over_area = self.perimeter_over_area[beside];
-            let widen = |range: &mut [f64; 2]| {
-                *range = [
-                    range[0].min(perimeter_over_area),
-                    range[1].max(perimeter_over_area),
-                ]
-            };
+            let beside = pull(neighbour.pore);
             if neighbour.axis == axis && neighbour.up == up {
-                widen(&mut ahead);
-            } else if neighbour.axis != axis && (self.empty)(beside) {
-                widen(&mut behind);
-                widen(&mut ahead);
+                ahead = ahead.min(beside);
+            } else if neighbour.axis != axis && (self.empty)(neighbour.pore) {
+                (behind, ahead) = (behind.max(beside), ahead.min(beside));
             }
         }
-        // A non-wetting liquid is repelled by narrower throats.
-        let fall = match self.wetting.cosine > 0.0 {
-            true => behind[1] - ahead[0],
-            false => ahead[1] - behind[0],
-        };
-        0.5 * fall.max(0.0)
+        0.5 * (behind - ahead)
     }
 }
 

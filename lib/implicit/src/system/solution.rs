@@ -73,7 +73,7 @@ pub(crate) fn solve(
     drive: Drive,
     start: &mut Flow,
     solver: &SaddleSolver,
-    clock: &mut Clock,
+    clock: &Clock,
 ) -> Result<Flow, SolveError> {
     let begun = Instant::now();
     let unknowns = problem.unknowns;

@@ -83,12 +83,10 @@ fn conjugate_gradients(nodes: &[Node], at_limit: &[bool], ratio: &mut [f64]) -> 
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let count = nodes.len();
     let mut residual: Vec<f64> = (0..count).map(|n| defect(ratio, n)).collect();
-    let scale: f64 = (nodes
-        .iter()
-        .zip(at_limit)
-        .filter(|(_, at_limit)| !**at_limit))
-    .map(|(node, _)| (node.diagonal() * node.ratio).powi(2))
-    .sum();
+    let free = nodes.iter().zip(at_limit).filter(|of| !*of.1);
+    let scale: f64 = free
+        .map(|(node, _)| (node.diagonal() * node.ratio).powi(2))
+        .sum();
     let scaled = |residual: &[f64]| -> Vec<f64> {
         let each = residual.iter().zip(nodes);
         each.map(|(r, node)| r / node.diagonal()).collect()

@@ -95,15 +95,15 @@ fn is_open(lattice: &Lattice, gap: i64, [x, y, z]: [i64; 3]) -> bool {
     ) else {
         return true;
     };
-    let (below, above) = (lattice.below.len() as i64, lattice.above.len() as i64);
-    let all = below + gap + above;
-    let Some(y) = within(y + below, all, lattice.boundary[1]) else {
+    let [below, between, above] = &lattice.layers;
+    let low = below.len() as i64;
+    let Some(y) = within(y + low, low + gap + above.len() as i64, lattice.boundary[1]) else {
         return true;
     };
-    let layer = match y {
-        y if y < below => &lattice.below[(below - 1 - y) as usize],
-        y if y < below + gap => &lattice.gap,
-        y => &lattice.above[(y - below - gap) as usize],
+    let layer = match y - low {
+        y if y < 0 => &below[(-1 - y) as usize],
+        y if y < gap => &between[0],
+        y => &above[(y - gap) as usize],
     };
     layer[(x + nx * z) as usize] == OPEN
 }

@@ -46,13 +46,16 @@ pub(crate) struct PackedMatrix {
     chunks: Vec<PackedRows>,
     /// Largest distance that a block of rows reads before its first or after its last row, zeros of its runs included.
     reach: usize,
+    /// Largest entry of `A` off the diagonal.
+    pub(crate) largest: f64,
 }
 
 /// The rows of one chunk in blocks of eight.
 #[derive(Default)]
 struct PackedRows {
-    /// As [`PackedMatrix::reach`], for this chunk.
+    /// As in [`PackedMatrix`], for this chunk.
     reach: usize,
+    largest: f64,
     /// End of every block in `runs` and in `scattered`.
     run_end: Vec<u32>,
     scattered_end: Vec<u32>,
@@ -74,29 +77,6 @@ impl PackedRows {
                 .map_or(0, |before| ends[before] as usize)
         };
         (of(&self.run_end), of(&self.scattered_end))
-    }
-
-    /// Columns and entries of row `lane` of block `block`.
-    fn row(&self, block: usize, lane: usize) -> impl Iterator<Item = (usize, f64)> {
-        let ((run, place), (run_end, end)) = (self.starts(block), self.starts(block + 1));
-        let (runs, scattered) = (run..run_end, place..end);
-        let rests = &self.runs_rest[runs.clone()];
-        let in_runs = self.runs[runs]
-            .iter()
-            .zip(rests)
-            .map(move |((base, high), rest)| {
-                (*base as usize + lane, entry(high[lane], rest[lane]))
-            });
-        let rests = &self.scattered_rest[scattered.clone()];
-        let elsewhere = self.scattered[scattered].iter().zip(rests).map(
-            move |((base, offsets, high), rest)| {
-                let column = *base as usize + usize::from(offsets[lane]);
-                (column, entry(high[lane], rest[lane]))
-            },
-        );
-        in_runs
-            .chain(elsewhere)
-            .map(|(column, units)| (column, units / (UNIT * FINE)))
     }
 }
 
@@ -124,14 +104,9 @@ impl PackedMatrix {
         Ok(Self {
             n: scale.len(),
             reach: chunks.iter().map(|rows| rows.reach).max().unwrap_or(0),
+            largest: chunks.iter().map(|rows| rows.largest).fold(0.0, f64::max),
             chunks,
         })
-    }
-
-    /// Columns and entries of row `row` without the diagonal; some entries are zero.
-    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
-        let (block, lane) = (row % CHUNK / LANES, row % LANES);
-        self.chunks[row / CHUNK].row(block, lane)
     }
 
     /// Length of its vectors: number of rows and padding.
@@ -218,11 +193,6 @@ mod tests {
                 "row {row}"
             );
             assert!((absolute_sum - f64::from(absolute[row])).abs() < 6.0 * 0.5 / UNIT);
-            let of_row: f64 = packed
-                .row(row)
-                .map(|(column, entry)| entry * wide[column])
-                .sum();
-            assert!((of_row - fine[row]).abs() < 1e-14, "row {row}");
         }
     }
 

@@ -56,6 +56,9 @@ impl<'a> Packer<'a> {
                     let column = lane.0[0];
                     values[i] = self.fixed_point(row, column as usize, lane.1[0])?;
                     members[i] = Some(column);
+                    if distance != 0 {
+                        self.rows.largest = self.rows.largest.max(lane.1[0].abs());
+                    }
                     *lane = (&lane.0[1..], &lane.1[1..]);
                     next[i] = next_distance(row, lane.0);
                 }
