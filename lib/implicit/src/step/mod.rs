@@ -23,7 +23,7 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::clock::{Clock, Stage};
 use crate::geometry::Mesh;
 use crate::settings::Settings;
-use crate::system::{Edges, Flow, WallCouplings};
+use crate::system::{Edges, Flow, REST_DISTANCE, WallCouplings};
 use crate::water::AbsorbingWalls;
 use air::AirState;
 use completion::courant_speed;
@@ -80,8 +80,6 @@ struct State {
     growth: f64,
     /// Liquid volume that left the domain, cells.
     lost: f64,
-    /// Viscous dissipation, over the unit of viscosity.
-    dissipation: f64,
     /// Steps whose iterations did not converge.
     unsettled: u64,
     /// The water balance of a liquid that loses water.
@@ -136,10 +134,15 @@ impl Implicit {
 
     /// Takes one step: remeshes, then solves with shorter and shorter lengths until one is acceptable, and completes it.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
-        let limit = self.state.drive.bounded_by_stage(limit, self.state.travel);
-        if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
-        {
-            return Err(self.failure("the bodies have met and cannot move on"));
+        let programme = self.state.drive.programme.as_ref();
+        let limit = programme.map_or(limit, |run| run.within(limit, self.state.travel));
+        if self.setup.lattice.moving.is_some() && self.height == 0.0 {
+            // A step that ends the travel may do so earlier by what counts as rest.
+            let left = self.state.drive.speed * limit.time_s / self.setup.units.cell_m;
+            if left > REST_DISTANCE {
+                return Err(self.failure("the bodies have met and cannot move on"));
+            }
+            self.state.drive.speed = self.state.drive.speed.min(0.0);
         }
         let begun = Instant::now();
         self.update_mesh();
@@ -197,9 +200,11 @@ impl Implicit {
         if state.steps == 0 {
             dt = dt.min((2.0 * cfl / self.setup.gravity_acceleration()).sqrt());
         }
-        // A clamp that starts to retreat is bounded by its full speed only: with air behind it no earlier step tells the speed.
-        if let Some(speed) = state.drive.retreat_speed() {
-            dt = dt.min(cfl * units.cell_m / speed);
+        // A clamp that starts to retreat, in a stage that begins below the pressure reached, is bounded by its full speed only: with
+        // air behind it no earlier step tells the speed.
+        let retreating = (state.drive.programme.as_ref()).filter(|run| run.gives_way());
+        if let Some(run) = retreating {
+            dt = dt.min(cfl * units.cell_m / run.stage().speed);
         }
         // The first step is bounded by the capillary speed, tension over viscosity. Later ones may grow by a factor only, since
         // contact-line friction is evaluated at the velocity of the step before.
