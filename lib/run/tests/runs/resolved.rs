@@ -41,7 +41,7 @@ fn an_explicit_case_with_its_defaults_is_the_same_run() {
     let lines = [
         "shape = \"gimp\" # default",
         "points_per_direction = 2 # default",
-        "# cavitation_pressure: any tension, as Eq. 1 has it",
+        "# cavitation_pressure: unlimited (Eq. 1)",
         "max_pressure = \"2.5 MPa\"\n",
         "pid.ki = 0.02 # default",
         "# time_limit: not used",
