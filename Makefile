@@ -8,7 +8,7 @@
 #   make RUNS="implicit flip"     only these of xpic, flip, frictionless, implicit, implicit-frictionless
 #   make JOBS=2 RUN_THREADS=1     so many runs side by side, on so many threads each
 #   make SET="adhesive.viscosity=500 cP clamp.max_pressure=1 MPa"   with keys of the cases changed
-#   make CELL="1 voxel"           in other cells than those of two voxels; the influence length stays
+#   make CELL="1 voxel" SET="contact.influence_length=0.02 cell"   in cells of one voxel, with the same influence length
 #   make BOND="--crop-to-fit --drop-islands"   bonds built with these options of build-bondline
 #   make YES=1                    starts runs of more than an hour unasked; V=1 shows commands and CSV
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif [VOXEL="1.45 um"] [LABELS=void=0,wood=1,adhesive=2]

@@ -2,12 +2,9 @@
 # as leave no core idle (RUN_THREADS; goal.sh). Of user's stacks implicit runs alone: others take days.
 
 RUNS := implicit implicit-frictionless $(if $(OWN),,xpic flip frictionless)
-# The cases have the paper's cells, two voxels, and an influence length of partial slip of 0.01 cells. In cells of one voxel it
-# stays the same length.
+# The cases have the paper's cells, two voxels.
 CELL ?=
-SAME_SLIP = --set contact.influence_length="0.02 cell"
 COARSE = $(if $(CELL),--set grid.cell=$(call q,$(CELL)))
-COARSE_SLIP = $(if $(CELL),$(if $(filter-out 1 voxel,$(CELL)),,$(SAME_SLIP)))
 
 # The implicit runs again in cells of one voxel, for the errors of Table 2: some ten times their cost and five times
 # their memory, in the quick specimens a twenty-fifth of all runs. ERROR=no leaves them out. The full size would take
@@ -15,8 +12,8 @@ COARSE_SLIP = $(if $(CELL),$(if $(filter-out 1 voxel,$(CELL)),,$(SAME_SLIP)))
 ERROR ?= $(if $(filter full,$(SCALE))$(CELL),no,yes)
 FINER := $(if $(filter no,$(ERROR)),,$(filter implicit%,$(RUNS)))
 FINE = --set grid.cell="1 voxel"
-PARTIAL_SLIP := implicit xpic flip
-slip = $(if $(filter $(PARTIAL_SLIP),$(1)),$(2))
+# The influence length of partial slip, 0.01 cells of two voxels, stays the same length.
+FINE_implicit = --set contact.influence_length="0.02 cell"
 
 finals = $(foreach a,$(ADHESIVES),$(foreach r,$(1),$(OUT)/$(a)/$(r)/final.mpts))
 FINALS := $(call finals,$(RUNS))
@@ -32,8 +29,8 @@ define run_rule
 $(OUT)/$(1)/$(3)/final.mpts: pipelines/cases/$(1)-$(2).toml $(OUT)/$(1)/bond.mpts $(BIN)/mpm-run FORCE $(if $(filter implicit%,$(2)),,| $(FIRST_TABLE))
 	$$(call made,$(BIN)/mpm-run $$< --particles $(OUT)/$(1)/bond.mpts $(4) $$(SETS) $$$$HOW --overwrite -o $$(@D))
 endef
-$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r),$(r),$$(COARSE) $$(call slip,$(r),$$(COARSE_SLIP))))))
-$(foreach a,$(ADHESIVES),$(foreach r,$(FINER),$(eval $(call run_rule,$(a),$(r),$(r)-finer,$$(FINE) $$(call slip,$(r),$$(SAME_SLIP))))))
+$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r),$(r),$$(COARSE)))))
+$(foreach a,$(ADHESIVES),$(foreach r,$(FINER),$(eval $(call run_rule,$(a),$(r),$(r)-finer,$$(FINE) $$(FINE_$(r))))))
 
 .PHONY: runs
 runs: $(FINALS) $(FINER_FINALS)
