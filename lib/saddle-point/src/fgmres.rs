@@ -14,13 +14,14 @@ pub(crate) trait Operator {
     fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]);
 }
 
-/// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
-const RESTART: usize = 30;
+/// Iterations in which the residual must fall below the fraction [`STALLED`]; else the preconditioner is strengthened, if it
+/// can be, and a new cycle starts. Most solves take fewer than 20 iterations; at this rate 1e-3 takes 57.
+const TRIAL_ITERATIONS: usize = 10;
+const STALLED: f64 = 0.3;
 
-/// Number of iterations after which a cycle ends early, and the fraction of the residual that they may leave for it. Krylov
-/// vectors take most of the memory of a step, and an early restart costs little: 1 % more iterations for half the vectors.
-const PROMPT: usize = 10;
-const PROMPT_FRACTION: f64 = 0.1;
+/// A cycle also ends after [`TRIAL_ITERATIONS`] iterations if the residual has fallen below this fraction. Its vectors take most of the
+/// memory of a step, and the restart costs little: 1 % more iterations for half the vectors.
+const PROMPT: f64 = 0.1;
 
 /// An approximate inverse of the operator.
 pub(crate) trait Precondition {
@@ -30,7 +31,13 @@ pub(crate) trait Precondition {
     /// Before a cycle, adds to `x`, in double precision, the part of the correction for the residual `r` that single precision
     /// cannot resolve. Returns whether there is any.
     fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool;
+
+    /// Makes the approximation better at more cost; returns whether it could.
+    fn strengthen(&mut self) -> bool;
 }
+
+/// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
+const RESTART: usize = 30;
 
 /// When to stop.
 #[derive(Clone, Copy)]
@@ -152,11 +159,14 @@ impl Cycle {
             if least_squares.residual() <= self.target || remaining == 0.0 {
                 break;
             }
-            let is_prompt = k + 1 >= PROMPT && {
-                let before = history[history.len() - 1 - PROMPT] * self.scale;
-                least_squares.residual() < PROMPT_FRACTION * before
+            let before = history.iter().rev().nth(TRIAL_ITERATIONS);
+            let left = before.map(|before| least_squares.residual() / (before * self.scale));
+            let ends = match left {
+                Some(left) if left > STALLED => preconditioner.strengthen(),
+                Some(left) => left < PROMPT && k + 1 >= TRIAL_ITERATIONS,
+                None => false,
             };
-            if is_prompt {
+            if ends {
                 break;
             }
             normalise(&space.vector, remaining, vector_at(&mut space.basis, k + 1));
@@ -202,13 +212,13 @@ fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
 mod tests {
     use super::*;
 
-    /// diag(1, 1/2^power, 1/3^power, ..) with a count of its applications.
+    /// diag(1, 1/2^power, 1/3^power, ..) with a count of its applications; its strengthened preconditioner is the exact inverse.
+    #[derive(Clone, Copy)]
     struct Steep {
         power: f64,
+        strong: bool,
         applied: usize,
     }
-
-    struct Identity;
 
     impl Operator for Steep {
         fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
@@ -219,13 +229,19 @@ mod tests {
         }
     }
 
-    impl Precondition for Identity {
+    impl Precondition for Steep {
         fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
-            z.copy_from_slice(r);
+            let power = if self.strong { self.power } else { 0.0 };
+            let inverse = |(row, r): (usize, &Work)| r * ((row + 1) as Work).powf(power as Work);
+            *z = r.iter().enumerate().map(inverse).collect();
         }
 
         fn correct_in_double(&self, _: &[f64], _: &mut [f64]) -> bool {
             false
+        }
+
+        fn strengthen(&mut self) -> bool {
+            !std::mem::replace(&mut self.strong, true)
         }
     }
 
@@ -237,9 +253,13 @@ mod tests {
             enough: 0.0,
             max_iterations: 200,
         };
-        let mut operator = Steep { power, applied: 0 };
+        let [mut operator, mut preconditioner] = [Steep {
+            power,
+            strong: false,
+            applied: 0,
+        }; 2];
         let (b, mut x, mut space) = (vec![1.0; n], vec![0.0; n], KrylovSpace::default());
-        let (k, m) = (&mut operator, &mut Identity);
+        let (k, m) = (&mut operator, &mut preconditioner);
         let history = fgmres(k, m, &b, &mut x, limits, &mut space).unwrap();
         (history, operator.applied, space.preconditioned.len())
     }
@@ -254,6 +274,21 @@ mod tests {
         assert_eq!((below.0.len() - 1, below.1), (8, 10));
         let above = solve(r / 1.5);
         assert_eq!(above.1, above.0.len() - 1 + 2, "{:?}", above.0);
+    }
+
+    /// If ten iterations leave slightly more than 0.3 of the residual, the inverse takes over and needs one or two; if they leave
+    /// slightly less, the cycle continues.
+    #[test]
+    fn a_cycle_that_is_slow_gives_way_to_a_stronger_preconditioner() {
+        let [fast, slow] = [1.5, 1.6].map(|power| solve(100, power, 1e-5).0);
+        assert!(
+            (0.2..0.3).contains(&fast[10]) && fast.len() > 30,
+            "{fast:?}"
+        );
+        assert!(
+            (0.3..0.4).contains(&slow[10]) && (12..=13).contains(&slow.len()),
+            "{slow:?}"
+        );
     }
 
     /// If ten iterations leave slightly less than 0.1 of the residual, the cycle ends; if slightly more, it continues.

@@ -130,26 +130,34 @@ pub(crate) struct Bordered<'a, 'b> {
     response: Vec<Work>,
     /// Mean over each sealed pocket of the volumes that unit speed displaces.
     moved: Vec<f64>,
+    /// d times the square of the weight.
+    resistance: f64,
     pivot: f64,
 }
 
 impl<'a, 'b> Bordered<'a, 'b> {
     pub(crate) fn new(inner: &'b mut Preconditioner<'a>, load: &Load, weight: f64) -> Self {
         let source: Vec<f64> = load.source.iter().map(|s| weight * s).collect();
-        let (column, mut response) = (load.column(weight), Vec::new());
-        inner.apply(&column, &mut response);
-        let moved = inner.sealed().displaced(&source);
-        // Positive if the preconditioner is close enough to the system, which resists motion.
-        let pivot = weight * weight * load.resistance - dot(&column, &response)
-            + inner.sealed().force(&moved, &moved);
-        Self {
-            inner,
+        let mut bordered = Self {
             faces: load.momentum.len(),
-            column,
-            response,
-            moved,
-            pivot: pivot.abs().max(f64::MIN_POSITIVE),
-        }
+            column: load.column(weight),
+            response: Vec::new(),
+            moved: inner.sealed().displaced(&source),
+            resistance: weight * weight * load.resistance,
+            pivot: 0.0,
+            inner,
+        };
+        bordered.update_response();
+        bordered
+    }
+
+    /// Computes the response z to the column, and the pivot.
+    fn update_response(&mut self) {
+        self.inner.apply(&self.column, &mut self.response);
+        // Positive if the preconditioner is close enough to the system, which resists motion.
+        let pivot = self.resistance - dot(&self.column, &self.response)
+            + self.inner.sealed().force(&self.moved, &self.moved);
+        self.pivot = pivot.abs().max(f64::MIN_POSITIVE);
     }
 }
 
@@ -169,6 +177,14 @@ impl Precondition for Bordered<'_, '_> {
         });
         sealed.subtract(&sealed.negative_pressures(residuals), &mut z[faces..]);
         z.push(Work::nearest(speed));
+    }
+
+    fn strengthen(&mut self) -> bool {
+        let stronger = self.inner.strengthen();
+        if stronger {
+            self.update_response();
+        }
+        stronger
     }
 
     /// Adds the mean pressures of sealed pockets and the speed: beside them, the rest would be lost in single precision.

@@ -13,9 +13,6 @@ use crate::vector::{Real, Work, for_each};
 /// Largest over smallest eigenvalue of `D^-1 A` in the interval of the polynomial. From 400 to 1600 a bond takes about the same
 /// time to solve; 100 and 200 take more iterations than they save.
 const RATIO: f64 = 400.0;
-/// Degree of the polynomial: 1.2 times the root of the ratio. Lower degrees cost more in iterations than they save; degrees from
-/// 24 to 48, with intervals to match, take the same time.
-const DEGREE: usize = 24;
 
 /// `[Ahat, 0; -G, -Shat]^-1`.
 pub(crate) struct Preconditioner<'a> {
@@ -33,7 +30,7 @@ impl<'a> Preconditioner<'a> {
     ) -> Result<Self, SolveError> {
         Ok(Self {
             g: system.g,
-            chebyshev: Chebyshev::new(system.a, RATIO, DEGREE),
+            chebyshev: Chebyshev::new(system.a, RATIO),
             schur: Schur::new(system, g_transposed)?,
             volume: vec![Work::default(); system.g.n_rows()],
         })
@@ -62,6 +59,10 @@ impl Precondition for Preconditioner<'_> {
             *out = r_p[cell] + Work::nearest(g.row_times_wide(cell, u));
         });
         self.schur.apply_negative(&mut self.volume, pressure);
+    }
+
+    fn strengthen(&mut self) -> bool {
+        self.chebyshev.widen()
     }
 
     fn correct_in_double(&self, r: &[f64], x: &mut [f64]) -> bool {
