@@ -3,6 +3,8 @@
 use physics::{Boundary, Dimensions, Motion, RigidBody, Scene, VoxelBlock};
 
 use super::frames::{Frames, check_motions};
+#[cfg(test)]
+use super::region::Region;
 use super::rows::RowKind;
 
 /// Code of an open voxel. Voxels of body `b` have the code `b + 1`.
@@ -226,7 +228,17 @@ impl super::mesh::Mesh {
     }
 
     /// The rows of that column from `start` on.
-    pub(crate) fn column_from([below, above]: [usize; 2], gap: usize, start: usize) -> Self {
+    pub(crate) fn column_from(parts: [usize; 2], gap: usize, start: usize) -> Self {
+        Self::column_of(parts, gap, start, |size| Region::new(size, true))
+    }
+
+    /// The active cells of these rows.
+    pub(crate) fn column_of(
+        [below, above]: [usize; 2],
+        gap: usize,
+        start: usize,
+        region: impl Fn([usize; 3]) -> Region,
+    ) -> Self {
         let (body, down) = (0, true);
         let lattice = Lattice {
             layers: [below, 1, above].map(|n| vec![vec![OPEN]; n]),
@@ -235,6 +247,8 @@ impl super::mesh::Mesh {
             ..Lattice::still(1, [1, 1], [Boundary::Symmetry; 3], Vec::new())
         };
         let rows = lattice.rows();
-        Self::whole(&lattice, rows, start..rows.len())
+        let range = start..rows.len();
+        let region = region(Self::size_of(&lattice, &range));
+        Self::new(&lattice, rows, range, region)
     }
 }

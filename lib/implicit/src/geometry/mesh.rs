@@ -39,6 +39,9 @@ pub(crate) struct Mesh {
     /// Faces of each pore, grouped by side (low and high along x, y, z), and the start of each group.
     pore_faces: Vec<u32>,
     pore_face_start: Vec<u32>,
+    /// Whether each face borders on a cell whose neighbours are all active. Only these faces have wall couplings and edges, and may
+    /// move; liquid that comes farther waits for the next mesh.
+    pub(crate) inner: Vec<bool>,
 }
 
 impl Mesh {
@@ -86,6 +89,7 @@ impl Mesh {
             face_start: Vec::with_capacity(3 * cells + 1),
             pore_faces: Vec::new(),
             pore_face_start: Vec::new(),
+            inner: Vec::new(),
         };
         let k3 = mesh.k.pow(3);
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
@@ -119,6 +123,7 @@ impl Mesh {
         }
         mesh.face_start.push(mesh.faces.len() as u32);
         mesh.list_pore_faces();
+        mesh.inner = mesh.inner_faces();
         mesh.pores.shrink_to_fit();
         mesh.faces.shrink_to_fit();
         mesh

@@ -103,8 +103,8 @@ impl Mesh {
         region
     }
 
-    /// Whether each face borders on a cell whose neighbours are all active. Only these faces can have liquid.
-    pub(crate) fn inner_faces(&self) -> Vec<bool> {
+    /// [`Mesh::inner`].
+    pub(super) fn inner_faces(&self) -> Vec<bool> {
         let inner = self.region.inner(self.periodic());
         let holds = |face: &Face| {
             face.pores()
@@ -112,6 +112,13 @@ impl Mesh {
                 .any(|&pore| inner.contains(self.cell(pore)))
         };
         self.faces.iter().map(holds).collect()
+    }
+
+    /// Whether some of these pores border on cells that are not active.
+    pub(crate) fn is_cut(&self, pores: &[u32]) -> bool {
+        let inner = self.region.inner(self.periodic());
+        let mut cells = pores.iter().map(|&pore| self.cell(pore as usize));
+        cells.any(|cell| !inner.contains(cell))
     }
 
     /// Cells that are wholly open, as are all their neighbours: no wall acts on their faces.

@@ -119,7 +119,8 @@ impl Implicit {
                 }
             }
             all += inflow.max(0.0);
-            if inflow > free {
+            // A void that goes on beyond the active cells has more room than they show.
+            if inflow > free && !mesh.is_cut(&void) {
                 excess += inflow - free;
                 void.iter().for_each(|&pore| full[pore as usize] = true);
             }

@@ -31,7 +31,7 @@ impl WallCouplings {
     /// The couplings of a mesh; faces that are unchanged by `face_map` keep their `old` ones.
     pub(crate) fn new(channels: &Channels, face_map: &FaceMap, old: &Self) -> Self {
         let mesh = channels.mesh;
-        let (inner, clear) = (mesh.inner_faces(), mesh.wall_free_cells());
+        let clear = mesh.wall_free_cells();
         let moving = channels.lattice.moving.is_some();
         let coupling = |face: usize| {
             let old = face_map.unchanged(face).map(|face| old.0[face]);
@@ -42,7 +42,7 @@ impl WallCouplings {
                 mesh.is_wall_free(face, &clear),
                 channels.depends_on_gap(face),
             );
-            match inner[face] {
+            match mesh.inner[face] {
                 false => WallCoupling::default(),
                 // `measure` computes it before use.
                 true if moving && depends_on_gap => WallCoupling {

@@ -129,7 +129,6 @@ impl Edges {
             let next = new_face[edge.next as usize]?;
             Some(Edge { next, ..*edge })
         };
-        let inner = mesh.inner_faces();
         let clear = mesh.wall_free_cells();
         let add = |face: usize, edges: &mut Vec<Edge>| {
             let first = edges.len();
@@ -139,7 +138,7 @@ impl Edges {
             });
             if !known {
                 edges.truncate(first);
-                if inner[face] {
+                if mesh.inner[face] {
                     add_edges(edges, mesh, lattice, face, mesh.is_wall_free(face, &clear));
                 }
             }

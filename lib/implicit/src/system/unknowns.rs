@@ -38,7 +38,7 @@ impl Unknowns {
             let pores = mesh.faces[face].pores();
             let liquid = |pore: usize| fractions[pore] * mesh.volume(pore);
             let wet = || pores.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
-            if !(pores.iter().any(|&pore| full(pore)) || wet()) {
+            if !(mesh.inner[face] && (pores.iter().any(|&pore| full(pore)) || wet())) {
                 continue;
             }
             unknowns.faces.push(face as u32);
@@ -73,4 +73,26 @@ fn by_rows(mesh: &Mesh) -> impl Iterator<Item = usize> {
             (first..first + row).flat_map(move |cell| mesh.faces_of(cell, axis))
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Region;
+
+    /// In a column of six cells of which the first four are active, the cells up to the third have active neighbours only.
+    #[test]
+    fn liquid_at_the_end_of_the_active_cells_does_not_move() {
+        let mesh = Mesh::column_of([0, 6], 0, 0, |size| {
+            let mut region = Region::new(size, false);
+            (0..4).for_each(|cell| region.add(cell));
+            region
+        });
+        assert_eq!(
+            [[0, 1, 2], [1, 2, 3]].map(|pores| mesh.is_cut(&pores)),
+            [false, true]
+        );
+        let moving = Unknowns::new(&mesh, &[1.0; 4], &[false; 4]).faces;
+        assert_eq!(moving, [0, 1, 2]);
+    }
 }
