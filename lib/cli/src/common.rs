@@ -74,7 +74,7 @@ fn with_exit_status(command: clap::Command) -> clap::Command {
     }
 }
 
-const EXIT_STATUS: &str = "Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or damaged data, or too little memory.";
+const EXIT_STATUS: &str = "Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or damaged data, or too little memory (docs/verdicts.md).";
 
 /// `--generate WHAT` must work without the tool's required arguments, so it is looked for
 /// before the real parse; a wrong WHAT is left to that parse to refuse.

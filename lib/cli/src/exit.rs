@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use crate::message;
 
-/// Exit statuses of every tool, documented here and in README.md only.
+/// Exit statuses of every tool (docs/verdicts.md).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The run failed: unstable, particle lost, output could not be written, memory ran out.

@@ -30,7 +30,7 @@ case file); particles (a bond file); or specimen.adhesive, .size, .slab, .voxel,
 folder; a case without an ending is a file beside that of --case. An empty cell stands for the \
 value of the case file.
 
-Exit status: 0 ok; 1 cannot write; 2 usage, table or case; 3 unreadable or corrupt data; 75 \
+Exit status: 0 ok; 1 cannot write; 2 usage, table or case; 3 unreadable or damaged data, or too little memory; 75 \
 stopped early or not all runs ended: start the same command again."
 )]
 struct Arguments {

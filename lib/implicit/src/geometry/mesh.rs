@@ -39,8 +39,8 @@ pub(crate) struct Mesh {
     /// Faces of each pore, grouped by side (low and high along x, y, z), and the start of each group.
     pore_faces: Vec<u32>,
     pore_face_start: Vec<u32>,
-    /// Whether each face borders on a cell whose neighbours are all active. Only these faces have wall couplings and edges, and may
-    /// move; liquid that comes farther waits for the next mesh.
+    /// Whether each face borders on a cell whose neighbours in the mesh are all active. Only these faces have wall couplings and
+    /// edges, and may move; liquid that comes farther waits for the next mesh.
     pub(crate) inner: Vec<bool>,
 }
 

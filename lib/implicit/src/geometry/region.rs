@@ -114,11 +114,15 @@ impl Mesh {
         self.faces.iter().map(holds).collect()
     }
 
-    /// Whether some of these pores border on cells that are not active.
+    /// Whether some of these pores border on cells that are not active, or on rows that the mesh leaves out.
     pub(crate) fn is_cut(&self, pores: &[u32]) -> bool {
         let inner = self.region.inner(self.periodic());
-        let mut cells = pores.iter().map(|&pore| self.cell(pore as usize));
-        cells.any(|cell| !inner.contains(cell))
+        let (range, rows) = (&self.range, self.rows().len());
+        let at_end = |row: usize| {
+            range.start > 0 && row == range.start || range.end < rows && row + 1 == range.end
+        };
+        let mut pores = pores.iter().map(|&pore| pore as usize);
+        pores.any(|pore| !inner.contains(self.cell(pore)) || at_end(self.row_of(pore)))
     }
 
     /// Cells that are wholly open, as are all their neighbours: no wall acts on their faces.

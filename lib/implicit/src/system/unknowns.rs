@@ -92,6 +92,11 @@ mod tests {
             [[0, 1, 2], [1, 2, 3]].map(|pores| mesh.is_cut(&pores)),
             [false, true]
         );
+        let cut_rows = Mesh::column_from([0, 6], 0, 2);
+        assert_eq!(
+            [[0], [3]].map(|pores| cut_rows.is_cut(&pores)),
+            [true, false]
+        );
         let moving = Unknowns::new(&mesh, &[1.0; 4], &[false; 4]).faces;
         assert_eq!(moving, [0, 1, 2]);
     }
