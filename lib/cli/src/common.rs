@@ -41,7 +41,7 @@ pub fn main<A: Parser + CommandFactory>(
     common: fn(&A) -> &Common,
     run: fn(A) -> Result<(), Failure>,
 ) -> ExitCode {
-    let command = with_exit_status(A::command());
+    let mut command = with_exit_status(A::command());
     let tool = command.get_name().to_owned();
     if let Some(what) = requested_generation(&command) {
         return match generate(command, &what) {
@@ -49,10 +49,13 @@ pub fn main<A: Parser + CommandFactory>(
             Err(failure) => failure.report(&tool),
         };
     }
-    let parsed = command.clone().try_get_matches();
-    let arguments = match parsed.and_then(|matches| A::from_arg_matches(&matches)) {
+    let parsed = command.try_get_matches_from_mut(std::env::args_os());
+    let parsed = parsed.and_then(|matches| {
+        A::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+    });
+    let arguments = match parsed {
         Ok(arguments) => arguments,
-        Err(error) => return usage(&error.format(&mut command.clone()), &tool),
+        Err(error) => return usage(&error, &tool),
     };
     signals::catch_file_limit();
     signals::catch_abort();

@@ -1,6 +1,6 @@
 //! Likely causes of a failed solve.
 
-use crate::pockets::components;
+use crate::components::components;
 use crate::system::SaddleSystem;
 use crate::{NEARLY, SolveError};
 

@@ -8,6 +8,7 @@
 mod amg;
 mod cause;
 mod chebyshev;
+mod components;
 mod csr;
 mod fgmres;
 mod least_squares;
@@ -15,7 +16,6 @@ mod load;
 mod options;
 mod orthogonal;
 mod packed;
-mod pockets;
 mod preconditioner;
 mod residual_scale;
 mod saddle;

@@ -1,7 +1,7 @@
 //! Mean pressures of sealed liquid, which the multigrid cycle cannot resolve.
 
+use crate::components::components;
 use crate::csr::{Csr, value_at};
-use crate::pockets::components;
 use crate::vector::Real;
 
 /// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision. At 2e-9 presses

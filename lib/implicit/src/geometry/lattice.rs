@@ -3,8 +3,6 @@
 use physics::{Boundary, Dimensions, Motion, RigidBody, Scene, VoxelBlock};
 
 use super::frames::{Frames, check_motions};
-#[cfg(test)]
-use super::region::Region;
 use super::rows::RowKind;
 
 /// Code of an open voxel. Voxels of body `b` have the code `b + 1`.
@@ -229,7 +227,9 @@ impl super::mesh::Mesh {
 
     /// The rows of that column from `start` on.
     pub(crate) fn column_from(parts: [usize; 2], gap: usize, start: usize) -> Self {
-        Self::column_of(parts, gap, start, |size| Region::new(size, true))
+        Self::column_of(parts, gap, start, |size| {
+            super::region::Region::new(size, true)
+        })
     }
 
     /// The active cells of these rows.
@@ -237,7 +237,7 @@ impl super::mesh::Mesh {
         [below, above]: [usize; 2],
         gap: usize,
         start: usize,
-        region: impl Fn([usize; 3]) -> Region,
+        region: impl Fn([usize; 3]) -> super::region::Region,
     ) -> Self {
         let (body, down) = (0, true);
         let lattice = Lattice {

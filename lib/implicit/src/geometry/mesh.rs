@@ -39,9 +39,8 @@ pub(crate) struct Mesh {
     /// Faces of each pore, grouped by side (low and high along x, y, z), and the start of each group.
     pore_faces: Vec<u32>,
     pore_face_start: Vec<u32>,
-    /// Whether each face borders on a cell whose neighbours in the mesh are all active. Only these faces have wall couplings and
-    /// edges, and may move; liquid that comes farther waits for the next mesh.
-    pub(crate) inner: Vec<bool>,
+    /// Active cells whose neighbours are all active, or beyond a side of the domain.
+    pub(crate) inner: Region,
 }
 
 impl Mesh {
@@ -89,7 +88,7 @@ impl Mesh {
             face_start: Vec::with_capacity(3 * cells + 1),
             pore_faces: Vec::new(),
             pore_face_start: Vec::new(),
-            inner: Vec::new(),
+            inner: Region::new([0; 3], false),
         };
         let k3 = mesh.k.pow(3);
         let code = |i: usize| mesh.lattice_code(lattice, i / k3, mesh.voxel(i % k3));
@@ -123,7 +122,7 @@ impl Mesh {
         }
         mesh.face_start.push(mesh.faces.len() as u32);
         mesh.list_pore_faces();
-        mesh.inner = mesh.inner_faces();
+        mesh.inner = mesh.inner_cells();
         mesh.pores.shrink_to_fit();
         mesh.faces.shrink_to_fit();
         mesh

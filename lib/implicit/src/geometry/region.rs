@@ -1,7 +1,6 @@
 //! Sets of cells of a box, such as the active cells around the liquid.
 
 use super::mesh::Mesh;
-use super::pore::Face;
 
 /// A set of cells of a box, numbered x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -104,25 +103,28 @@ impl Mesh {
     }
 
     /// [`Mesh::inner`].
-    pub(super) fn inner_faces(&self) -> Vec<bool> {
-        let inner = self.region.inner(self.periodic());
-        let holds = |face: &Face| {
-            face.pores()
-                .iter()
-                .any(|&pore| inner.contains(self.cell(pore)))
-        };
-        self.faces.iter().map(holds).collect()
-    }
-
-    /// Whether some of these pores border on cells that are not active, or on rows that the mesh leaves out.
-    pub(crate) fn is_cut(&self, pores: &[u32]) -> bool {
-        let inner = self.region.inner(self.periodic());
+    pub(super) fn inner_cells(&self) -> Region {
         let (range, rows) = (&self.range, self.rows().len());
-        let at_end = |row: usize| {
+        let is_cut = |row: usize| {
             range.start > 0 && row == range.start || range.end < rows && row + 1 == range.end
         };
+        let mut inner = self.region.inner(self.periodic());
+        for (cell, is_member) in inner.cells.iter_mut().enumerate() {
+            *is_member &= !is_cut(self.row(cell));
+        }
+        inner
+    }
+
+    /// Whether a face borders on an inner cell. Only such faces have wall couplings and edges, and may move; liquid that comes
+    /// farther waits for the next mesh.
+    pub(crate) fn is_inner(&self, face: usize) -> bool {
+        (self.faces[face].pores().iter()).any(|&pore| self.inner.contains(self.cell(pore)))
+    }
+
+    /// Whether these pores may go on beyond the active cells.
+    pub(crate) fn is_cut(&self, pores: &[u32]) -> bool {
         let mut pores = pores.iter().map(|&pore| pore as usize);
-        pores.any(|pore| !inner.contains(self.cell(pore)) || at_end(self.row_of(pore)))
+        pores.any(|pore| !self.inner.contains(self.cell(pore)))
     }
 
     /// Cells that are wholly open, as are all their neighbours: no wall acts on their faces.

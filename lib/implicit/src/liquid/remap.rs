@@ -61,12 +61,12 @@ impl FaceMap {
             (range.start == 0 || row >= range.start + STEP_REACH)
                 && (range.end == mesh.rows().len() || row + STEP_REACH < range.end)
         };
-        let inner = old.region.inner(old.periodic());
         let old_cell = |pore: usize| {
             let [x, _, z] = new.cell_indices(new.cell(pore));
             let row = new.row_of(pore);
             let cell = old.cell_at([x, same_row(new, old, row)?, z]);
-            let whole = inner.contains(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
+            let whole =
+                old.inner.contains(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
             Some((cell, whole))
         };
         let old_cells: Vec<_> = (0..new.pores.len()).into_par_iter().map(old_cell).collect();

@@ -136,16 +136,15 @@ impl Implicit {
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         let programme = self.state.drive.programme.as_ref();
         let limit = programme.map_or(limit, |run| run.within(limit, self.state.travel));
-        if self.setup.lattice.moving.is_some() && self.height == 0.0 {
+        if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
+        {
             // A body of given velocity may overlap another by a fiftieth of a cell at the end (docs/verdicts.md), and the step that
             // ends its travel may do so earlier by a hundredth.
             let left = self.state.drive.speed * limit.time_s / self.setup.units.cell_m;
-            let rests = self.setup.clamp.is_none() && left <= 3.0 * REST_DISTANCE;
-            match self.state.drive.speed > 0.0 {
-                true if rests => self.state.drive.speed = 0.0,
-                true => return Err(self.failure("the bodies have met and cannot move on")),
-                false => {}
+            if self.setup.clamp.is_some() || left > 3.0 * REST_DISTANCE {
+                return Err(self.failure("the bodies have met and cannot move on"));
             }
+            self.state.drive.speed = 0.0;
         }
         let begun = Instant::now();
         self.update_mesh();

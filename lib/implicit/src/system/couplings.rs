@@ -42,7 +42,7 @@ impl WallCouplings {
                 mesh.is_wall_free(face, &clear),
                 channels.depends_on_gap(face),
             );
-            match mesh.inner[face] {
+            match mesh.is_inner(face) {
                 false => WallCoupling::default(),
                 // `measure` computes it before use.
                 true if moving && depends_on_gap => WallCoupling {

@@ -138,7 +138,7 @@ impl Edges {
             });
             if !known {
                 edges.truncate(first);
-                if mesh.inner[face] {
+                if mesh.is_inner(face) {
                     add_edges(edges, mesh, lattice, face, mesh.is_wall_free(face, &clear));
                 }
             }

@@ -38,7 +38,7 @@ impl Unknowns {
             let pores = mesh.faces[face].pores();
             let liquid = |pore: usize| fractions[pore] * mesh.volume(pore);
             let wet = || pores.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
-            if !(mesh.inner[face] && (pores.iter().any(|&pore| full(pore)) || wet())) {
+            if !(mesh.is_inner(face) && (pores.iter().any(|&pore| full(pore)) || wet())) {
                 continue;
             }
             unknowns.faces.push(face as u32);
