@@ -5,15 +5,17 @@ use serde_json::json;
 
 use crate::bond_measures::BondMeter;
 use crate::failure::RunFailure;
+use crate::history;
 use crate::invariants;
+use crate::outlook::outlook;
 use crate::resolve::Setup;
 use crate::snapshot::in_file_axes;
 use crate::summary::{self, Preliminaries, Summary};
 use crate::time_loop::Outcome;
 use crate::verdict;
 
-/// Returns the summary, the liquid in the axes of the bond file, and the displacements of the bodies (m). `history` is the
-/// text of the history, for press programmes. The scheme, which takes most of the memory, is dropped before the liquid is
+/// Returns the summary, the liquid in the axes of the bond file, and the displacements of the bodies (m). `rows` is the
+/// text of the history. The scheme, which takes most of the memory, is dropped before the liquid is
 /// measured.
 pub(crate) fn summarise(
     setup: &Setup,
@@ -21,11 +23,11 @@ pub(crate) fn summarise(
     outcome: Outcome,
     meter: Option<&BondMeter>,
     preliminaries: Preliminaries,
-    history: &str,
+    rows: &str,
 ) -> Result<(Summary, LiquidState, Vec<[f64; 3]>), RunFailure> {
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
-    let programme = summary::ended_stages(scheme.programme(), history);
+    let programme = summary::ended_stages(scheme.programme(), rows);
     let stage = |time: &StageTime| json!({ "name": time.name, "wall_s": time.wall_s });
     let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
@@ -39,6 +41,8 @@ pub(crate) fn summarise(
     let penetration = meter
         .map(|meter| meter.measure_state(&liquid, &displacements, lost))
         .transpose()?;
+    let mut gaps = history::over_time(rows, "gap_m");
+    gaps.splice(0..0, setup.initial_gap_m.map(|gap| [0.0, gap]));
     let wall = outcome.stepping.as_secs_f64();
     let work = outcome.steps_here as f64 * setup.liquid.points as f64;
     let summary = Summary {
@@ -61,6 +65,7 @@ pub(crate) fn summarise(
         peak_memory_bytes: machine::peak_memory_bytes(),
         programme,
         penetration,
+        outlook: outlook(outcome.end, &gaps, preliminaries.room),
         set_s: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
         stages: stages.iter().map(stage).collect(),
         counts: counts.into_iter().collect(),

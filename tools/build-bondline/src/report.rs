@@ -43,6 +43,10 @@ pub(crate) fn report(bond: &Bond, normal: Axis) {
         um(bond.effective_penetration_m()),
         um(bond.gap_m)
     ));
+    if let Some(room) = bond.room(normal) {
+        let say = if room.closes() { cli::note } else { cli::warn };
+        say(format!("{room} (closed sides)"));
+    }
 }
 
 fn plane(bond: &Bond, normal: Axis) {
