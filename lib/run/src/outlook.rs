@@ -110,8 +110,8 @@ mod tests {
             "{}",
             way.said
         );
-        let creeps = told(1e-3, 2.0, 0.0, end).unwrap();
-        let said = "a film creeps: the last 2.00 um take 2.0 ms more at the present speed, and longer as it slows";
+        let creeps = told(1e-3, 3.8, 0.0, end).unwrap();
+        let said = "a film creeps: the last 3.80 um take 3.8 ms more at the present speed, and longer as it slows";
         assert_eq!((creeps.said.as_str(), creeps.time_limit_s), (said, None));
         let full =
             "every lumen that the adhesive can reach is full: a longer press changes nothing";
