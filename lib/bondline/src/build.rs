@@ -5,7 +5,7 @@ use units::Axis;
 
 use crate::placed::{corner, layers};
 use crate::slab;
-use crate::{BondLine, Error, Face, PlacedVoxels, Press, Room, Specimen, find_bond_line, severed};
+use crate::{BondLine, Error, Face, PlacedVoxels, Specimen, find_bond_line, severed};
 
 /// How to part two adherends and place a slab of adhesive between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,22 +85,6 @@ impl Bond {
     /// Thickness of the slab, m.
     pub fn slab_m(&self) -> f64 {
         self.slab_cells as f64 * self.cell_m
-    }
-
-    /// Room for the slab in the wood, with sides through which nothing leaves.
-    pub fn room(&self, normal: Axis) -> Option<Room> {
-        let n = normal.index();
-        let end_m = self.bottom.origin_m[n] + self.bottom.bits.dims()[n] as f64 * self.voxel_m;
-        let voxel_m3 = self.voxel_m.powi(3);
-        Room::of(&Press {
-            adherends: [&self.bottom, &self.top].map(|body| (body.bits.view(), voxel_m3)),
-            normal,
-            area_m2: self.area as f64 * self.voxel_m.powi(2),
-            apart_m: self.top.origin_m[n] - self.gap_m - end_m,
-            adhesive_m3: self.adhesive_out as f64 * voxel_m3,
-            periodic: [false; 3],
-            open: [false; 3],
-        })
     }
 
     /// The bond file with this header.

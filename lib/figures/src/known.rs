@@ -102,25 +102,6 @@ impl Known {
         Ok(read)
     }
 
-    /// The share of the adhesive that entered the wood and its mean depth (um), of both sides, in a table of `wp-metrics`; NaN
-    /// where it has none.
-    ///
-    /// # Errors
-    /// As of [`Known::read`].
-    pub fn entered(table: &Table) -> Result<[f64; 2], Error> {
-        let total = table
-            .texts("side")?
-            .iter()
-            .position(|side| *side == SIDES[2]);
-        let mut entered = [f64::NAN; 2];
-        for (value, column) in entered.iter_mut().zip(["entered_share", "mean_depth_um"]) {
-            if let Some(row) = total.filter(|_| table.has(column)) {
-                *value = table.numbers_but(column, |_| true)?[row];
-            }
-        }
-        Ok(entered)
-    }
-
     /// Whether there is an error.
     pub fn has_error(self) -> bool {
         self.error.is_finite()

@@ -36,8 +36,8 @@ pub struct RunEnd {
     held_share: Option<f64>,
     /// Total WP before that release, um; NaN where the run did not measure it.
     pub(crate) held_wp_um: Option<f64>,
-    /// What the adhesive has no room for, and what a longer press would change.
-    ahead: Vec<String>,
+    /// What a longer press would change, behind a semicolon.
+    outlook: String,
     /// A time limit that would do, s.
     time_limit_s: Option<f64>,
     command: Vec<String>,
@@ -111,12 +111,7 @@ impl RunEnd {
         let held = stages.iter().rfind(|stage| stage["kind"] != "release");
         let held_wp = held.and_then(|stage| stage["wp_m"].as_f64());
         let travels = stages.iter().filter_map(|stage| stage["travel_m"].as_f64());
-        let said = |at: &str| Some(summary.pointer(at)?.as_str()?.to_owned());
-        let least = summary.pointer("/room/least_gap_m").and_then(Value::as_f64);
-        let short = least
-            .filter(|least| *least > 0.0)
-            .and_then(|_| said("/room/said"));
-        let short = short.into_iter();
+        let outlook = summary.pointer("/outlook/said").and_then(Value::as_str);
         Self {
             end: end.unwrap_or("not-ended").replace('_', "-"),
             sound: sound.unwrap_or(false),
@@ -126,7 +121,7 @@ impl RunEnd {
             closed_in,
             held_share: released.then(|| 1.0 - travels.fold(f64::NAN, f64::max) / way_m),
             held_wp_um: released.then(|| 1e6 * held_wp.unwrap_or(f64::NAN)),
-            ahead: short.chain(said("/outlook/said")).collect(),
+            outlook: outlook.map_or(String::new(), |said| format!("; {said}")),
             time_limit_s: (summary.pointer("/outlook/time_limit_s")).and_then(Value::as_f64),
             command: texts("/provenance/command"),
         }
@@ -179,9 +174,7 @@ impl RunEnd {
     pub fn advice(&self) -> Option<String> {
         let mark = self.mark()?;
         let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
-        let ahead: String = (self.ahead.iter())
-            .map(|said| format!("; {said}"))
-            .collect();
+        let ahead = &self.outlook;
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
                 let command = again(&self.command, "--resume", None);
@@ -279,12 +272,8 @@ mod tests {
         );
         let mut full = summary("time-limit", 4.2e-6);
         full["outlook"] = serde_json::json!({ "said": "every lumen is full" });
-        full["room"] = serde_json::json!({ "least_gap_m": 4.2e-6, "said": "room for 62 %" });
         let advice = RunEnd::of(&full).advice().unwrap();
-        assert!(
-            advice.ends_with("press; room for 62 %; every lumen is full"),
-            "{advice}"
-        );
+        assert!(advice.ends_with("press; every lumen is full"), "{advice}");
         for closed in ["closed", "time"] {
             assert_eq!(RunEnd::of(&summary(closed, 0.0)).mark(), None);
         }

@@ -48,45 +48,6 @@ fn a_slab_has_not_penetrated() {
     }
 }
 
-/// A slab of four layers, with lumens in half of the columns full to eight layers below it and in an eighth to two above: of
-/// 8.25 layers of adhesive 4 and 0.25 have entered, 4 and 1 layers deep on average. What thickens the slab changes nothing
-/// of the volumes nor of the depths, whatever they are measured from.
-#[test]
-fn adhesive_in_lumens_has_entered_whatever_the_slab() {
-    for normal in Axis::ALL {
-        for slab in [4, 12] {
-            let mut dims = [8; 3];
-            dims[normal.index()] = 60;
-            let stack = Stack::new(dims, move |x, y, z| {
-                let index = [x, y, z];
-                let across = index[(normal.index() + 1) % 3];
-                match index[normal.index()] {
-                    12..20 if across % 2 == 0 => 'a',
-                    layer if (20..20 + slab).contains(&layer) => 'a',
-                    layer if (20..22 + slab).contains(&layer) && across == 1 => 'a',
-                    _ => 'w',
-                }
-            });
-            let state = stack.state(normal);
-            let all = slab as f64 + 4.25;
-            for reference in [Reference::Mid, Reference::Plane(15.0 * VOXEL)] {
-                let found = measured(&state, reference);
-                for (side, [volume, depth]) in
-                    found
-                        .iter()
-                        .zip([[4.0, 4.0], [0.25, 1.0], [4.25, 16.25 / 4.25]])
-                {
-                    assert!(close(side.entered_share, volume / all, 1e-9), "{side:?}");
-                    assert!(close(side.mean_depth_m, depth * VOXEL, 1e-9), "{side:?}");
-                }
-            }
-        }
-    }
-    let [.., total] = measured(&slab(Axis::Y, 6).state(Axis::Y), Reference::Mid);
-    assert_eq!(total.entered_share, 0.0);
-    assert!(total.mean_depth_m.is_nan());
-}
-
 #[test]
 fn unequal_sides_about_a_given_plane() {
     // 12 layers below and 4 above y = 20, in a quarter of the columns below.

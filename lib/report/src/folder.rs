@@ -268,11 +268,8 @@ impl RunFolder {
 pub fn measured(file: &Labelled) -> Result<Measured, Error> {
     let table = Table::read(&file.path)?;
     let [bottom, top, total, ..] = Known::read(&table)?;
-    let [share, depth] = Known::entered(&table)?;
-    let entered = [
-        number(&share.into(), 100.0, 1),
-        number(&depth.into(), 1.0, 2),
-    ];
+    let entered = [("entered_share", 100.0, 1), ("mean_depth_um", 1.0, 2)]
+        .map(|(column, unit, decimals)| number(&table.in_total(column).into(), unit, decimals));
     Ok((file.label.clone(), entered, [bottom, top, total]))
 }
 

@@ -160,26 +160,17 @@ impl History {
     }
 }
 
-/// Time (s) and the number in column `name` of each row of the text of a history; nothing where it has no such column.
-pub(crate) fn over_time(text: &str, name: &str) -> Vec<[f64; 2]> {
-    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let columns = rows.next().unwrap_or_default();
-    let places = ["time_s", name].map(|name| columns.iter().position(|column| *column == name));
-    let row = |row: Vec<&str>| {
-        let number = |place: Option<usize>| row.get(place?)?.parse::<f64>().ok();
-        Some([number(places[0])?, number(places[1])?])
-    };
-    rows.filter_map(row).collect()
-}
-
 /// Total WP (m) at `time_s` from the text of a history; `None` without such a row or column.
 pub(crate) fn wp_at(text: &str, time_s: f64) -> Option<f64> {
-    let rows = over_time(text, "wp_total_um");
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let columns = rows.next()?;
+    let place = |name| columns.iter().position(|column| *column == name);
+    let [time, wp] = [place("time_s")?, place("wp_total_um")?];
+    let number = |row: &[&str], at: usize| row.get(at)?.parse::<f64>().ok();
     // Times in rows have ten digits.
-    let then = rows
-        .iter()
-        .find(|[time, _]| (time - time_s).abs() <= 1e-9 * time_s);
-    then.map(|[_, wp]| 1e-6 * wp)
+    let mut then =
+        rows.filter(|row| number(row, time).is_some_and(|t| (t - time_s).abs() <= 1e-9 * time_s));
+    Some(1e-6 * number(&then.next()?, wp)?)
 }
 
 /// Hashes the first `bytes` of a file, or all of it if it is shorter. Returns the number of bytes and the hash.

@@ -5,7 +5,6 @@ use serde_json::json;
 
 use crate::bond_measures::BondMeter;
 use crate::failure::RunFailure;
-use crate::history;
 use crate::invariants;
 use crate::outlook::outlook;
 use crate::resolve::Setup;
@@ -14,8 +13,8 @@ use crate::summary::{self, Preliminaries, Summary};
 use crate::time_loop::Outcome;
 use crate::verdict;
 
-/// Returns the summary, the liquid in the axes of the bond file, and the displacements of the bodies (m). `rows` is the
-/// text of the history. The scheme, which takes most of the memory, is dropped before the liquid is
+/// Returns the summary, the liquid in the axes of the bond file, and the displacements of the bodies (m). `history` is the
+/// text of the history, for press programmes. The scheme, which takes most of the memory, is dropped before the liquid is
 /// measured.
 pub(crate) fn summarise(
     setup: &Setup,
@@ -23,11 +22,11 @@ pub(crate) fn summarise(
     outcome: Outcome,
     meter: Option<&BondMeter>,
     preliminaries: Preliminaries,
-    rows: &str,
+    history: &str,
 ) -> Result<(Summary, LiquidState, Vec<[f64; 3]>), RunFailure> {
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
-    let programme = summary::ended_stages(scheme.programme(), rows);
+    let programme = summary::ended_stages(scheme.programme(), history);
     let stage = |time: &StageTime| json!({ "name": time.name, "wall_s": time.wall_s });
     let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
@@ -41,8 +40,6 @@ pub(crate) fn summarise(
     let penetration = meter
         .map(|meter| meter.measure_state(&liquid, &displacements, lost))
         .transpose()?;
-    let mut gaps = history::over_time(rows, "gap_m");
-    gaps.splice(0..0, setup.initial_gap_m.map(|gap| [0.0, gap]));
     let wall = outcome.stepping.as_secs_f64();
     let work = outcome.steps_here as f64 * setup.liquid.points as f64;
     let summary = Summary {
@@ -65,7 +62,7 @@ pub(crate) fn summarise(
         peak_memory_bytes: machine::peak_memory_bytes(),
         programme,
         penetration,
-        outlook: outlook(outcome.end, &gaps, preliminaries.room),
+        outlook: outlook(outcome.end, &clock, setup.initial_gap_m, preliminaries.room),
         set_s: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
         stages: stages.iter().map(stage).collect(),
         counts: counts.into_iter().collect(),

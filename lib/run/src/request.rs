@@ -86,9 +86,11 @@ impl Request {
         let bond = self.bond.iter();
         let voxels = bond.filter_map(|bond| voxels::doubt_of_file(bond.header()));
         let regime = Regime::of(&self.setup.scene, &self.setup.liquid).warnings();
-        let room = room::room(&self.setup).filter(|room| !room.closes());
-        let room = room.map(|room| room.to_string());
-        voxels.chain(regime).chain(room).collect()
+        let room = room::room(&self.setup).filter(|room| room.least_gap_m > 0.0);
+        voxels
+            .chain(regime)
+            .chain(room.map(|room| room.to_string()))
+            .collect()
     }
 
     fn forecast(&self) -> Result<Forecast, RunFailure> {
@@ -192,7 +194,10 @@ impl Request {
             Ok(outcome) => outcome,
         };
         let (end, clock) = (outcome.end, outcome.clock);
-        let rows = fs::read_to_string(folder.path_of(HISTORY)).unwrap_or_default();
+        let rows = match self.setup.scene.programme.is_empty() {
+            true => String::new(),
+            false => fs::read_to_string(folder.path_of(HISTORY)).unwrap_or_default(),
+        };
         let meter = meter.as_ref();
         let (summary, liquid, displacements) =
             summarise(&self.setup, scheme, outcome, meter, preliminaries, &rows)?;

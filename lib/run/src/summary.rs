@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use bondline::Room;
 use particle_file::Provenance;
 use physics::{Choice, PressRun};
-use serde::{Serialize, Serializer};
-use serde_json::json;
+use serde::Serialize;
 
 use crate::bond_measures::BondMeasures;
 use crate::courant::Courant;
@@ -87,22 +86,11 @@ pub struct Preliminaries {
     pub lumens: Vec<Remark>,
     /// What the run does not compute, and why.
     pub left_out: Vec<Remark>,
-    /// Room for the adhesive: `share` of it, `least_gap_m` that remains, and both as a sentence, `said`.
-    #[serde(
-        skip_serializing_if = "Option::is_none",
-        serialize_with = "serialize_room"
-    )]
+    /// Room for the adhesive.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,
     /// Tool, version, command and inputs.
     pub provenance: serde_json::Value,
-}
-
-fn serialize_room<S: Serializer>(room: &Option<Room>, to: S) -> Result<S::Ok, S::Error> {
-    let told = |room: &Room| {
-        let (share, least_gap_m) = (room.share, room.least_gap_m);
-        json!({ "share": share, "least_gap_m": least_gap_m, "said": room.to_string() })
-    };
-    room.as_ref().map(told).serialize(to)
 }
 
 /// `summary.json` of a run that failed.
