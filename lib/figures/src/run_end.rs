@@ -180,7 +180,7 @@ impl RunEnd {
                 let command = again(&self.command, "--resume", None);
                 format!("{mark}: mpm-run --resume continues it{command}")
             }
-            end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; "),
+            end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; ") + ahead,
             "time-limit" => {
                 let said = format!("{open}: the penetration is that of an unfinished press{ahead}");
                 let Some(limit_s) = self.time_limit_s else {

@@ -9,13 +9,14 @@ use crate::summary::time;
 
 /// Share of the way below which a bond is closed, and below which the lumens are full.
 const CLOSED: f64 = 1e-3;
-const FULL: f64 = 1e-2;
+const FULL: f64 = 2e-2;
 /// Speed over the mean speed of the press below which it creeps, as a film does, and stands still.
 const CREEPS: f64 = 0.25;
 const STANDS: f64 = 1e-6;
 /// How many times as long the rest of the way takes as at the present speed: up to 3.7 times where lumens fill at the pressure
-/// limit (quick specimens of poplar, 0.3 to 2.5 MPa).
+/// limit (quick specimens of poplar, 0.3 to 2.5 MPa). Their liquid goes as the square root of time: a margin over that.
 const SLOWS: f64 = 4.0;
+const MARGIN: f64 = 1.5;
 
 /// What a longer press would change.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -56,9 +57,10 @@ pub(crate) fn outlook(
         said.push(if speed <= STANDS * mean {
             "the press stands still: a longer one changes nothing".into()
         } else if speed < CREEPS * mean {
-            format!("the press creeps: a film of {takes}, and longer as it slows")
+            format!("the press creeps: the last {takes}, and longer as it slows")
         } else {
-            time_limit_s = Some(clock.time_s + SLOWS * more);
+            let root = MARGIN * clock.time_s * ((clock.travel_m + way) / clock.travel_m).powi(2);
+            time_limit_s = Some(root.max(clock.time_s + SLOWS * more));
             format!("the last {takes}")
         });
     }

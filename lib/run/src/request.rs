@@ -81,7 +81,8 @@ impl Request {
         })
     }
 
-    /// Warnings about implausible voxel sizes, about adhesive that has no room, and about terms that are left out although the regime needs them.
+    /// Warnings about implausible voxel sizes, about terms that are left out although the regime needs them, and about adhesive
+    /// that has no room.
     pub fn warnings(&self) -> Vec<String> {
         let bond = self.bond.iter();
         let voxels = bond.filter_map(|bond| voxels::doubt_of_file(bond.header()));
