@@ -1,6 +1,6 @@
 //! A result of a sweep: its values, error and axis.
 
-use crate::axes::{Axis, DECADES, extent};
+use crate::axes::{Axis, extent};
 use crate::closing::time_unit;
 use crate::column_name::worded;
 use crate::known::SIDES;
@@ -87,7 +87,7 @@ pub(crate) fn axis(name: &str, values: impl Iterator<Item = f64> + Clone) -> Axi
     let finite = values.filter(|v| v.is_finite());
     let [low, high] = [f64::min, f64::max].map(|pick| finite.clone().fold(f64::NAN, pick));
     match low > 0.0 && high > LOGARITHMIC * low {
-        true => Axis::logarithmic(name, finite, DECADES),
+        true => Axis::logarithmic(name, finite),
         false => Axis::linear(name, finite),
     }
 }
