@@ -124,7 +124,7 @@ fn movie(a: &MovieArgs) -> Result<(), Failure> {
     let states = states_of_run(&a.run.path)
         .and_then(by_time)
         .map_err(Failure::data)?;
-    let named = states.into_iter().map(|path| Labelled {
+    let named = states.into_iter().map(|(path, _)| Labelled {
         label: a.run.label.clone(),
         path,
     });
