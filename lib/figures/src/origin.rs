@@ -26,9 +26,15 @@ pub fn check_origin(file: &Path) -> Result<(), Error> {
 }
 
 fn follow(file: &Path, deeper: usize) -> Result<(), Error> {
-    let Some((tool, inputs)) = record(file).filter(|_| deeper > 0) else {
+    let Some((tool, mut inputs)) = record(file).filter(|_| deeper > 0) else {
         return Ok(());
     };
+    let looked_at = |kind: &str| KINDS.contains(&kind.to_lowercase().as_str());
+    inputs.retain(|(path, _)| {
+        path.extension()
+            .and_then(OsStr::to_str)
+            .is_some_and(looked_at)
+    });
     let folder = file.parent().unwrap_or(Path::new(""));
     let of_run = folder.join(RUN_MARK).is_file();
     for (input, hash) in &inputs {
@@ -65,16 +71,16 @@ fn has(path: &Path, hash: &str) -> bool {
 }
 
 /// The tool that wrote a file, and its inputs with their hashes, by the record beside it.
-fn record(file: &Path) -> Option<(String, Vec<(PathBuf, String)>)> {
+pub fn record(file: &Path) -> Option<(String, Vec<(PathBuf, String)>)> {
     let mut record = file.to_owned().into_os_string();
     record.push(".provenance.json");
     let record: Value = serde_json::from_str(&small_text(record.as_ref()).ok()?).ok()?;
     let inputs = record.get("inputs")?.as_array()?.iter();
     let inputs = inputs.filter_map(|input| {
-        let path = PathBuf::from(input["path"].as_str()?);
-        let kind = path.extension().and_then(OsStr::to_str)?;
-        let known = KINDS.contains(&kind.to_lowercase().as_str());
-        known.then_some((path, input["xxh3"].as_str()?.to_owned()))
+        Some((
+            input["path"].as_str()?.into(),
+            input["xxh3"].as_str()?.to_owned(),
+        ))
     });
     let tool = record["tool"].as_str().unwrap_or("its tool").to_owned();
     Some((tool, inputs.collect()))

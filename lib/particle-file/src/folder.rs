@@ -16,7 +16,10 @@ pub fn in_folder(folder: &Path) -> Vec<PathBuf> {
     let list = fs::read_dir(folder).into_iter().flatten();
     let shown = |path: &Path| {
         let name = path.file_name().unwrap_or_default();
-        !name.as_encoded_bytes().starts_with(b".") && path.extension().is_some_and(|e| e == "mpts")
+        !name.as_encoded_bytes().starts_with(b".")
+            && path
+                .extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("mpts"))
     };
     let paths = list.filter_map(|entry| Some(entry.ok()?.path()));
     let mut found: Vec<PathBuf> = paths.filter(|path| shown(path)).collect();
