@@ -8,8 +8,8 @@ RUNS="for s in a b; do xct2particles \$IN/files/make-stale-\$s.tif --voxel '1.45
 SWEEP='printf "row,clamp.closing_speed_m_s,status,wp_um,pressure_pa,time_s\n1,1e-6,sound,5,2.5e6,30\n2,1e-3,sound,6,2.5e6,3e-2\n3,1,sound,7,2e6,1.45e-5\n" >t.csv'
 
 fault "speeds of 1 um/s to 1 m/s on an axis" "10⁻⁶ (0)" "$SWEEP; bond-figures response t.csv -o r.svg -q; grep -o -m 1 '10⁻⁶' r.svg"
-fault "a time of 14.5 us beside 30 s" "10⁻⁵ (0)" "$SWEEP; bond-figures response t.csv -o r.svg -q; grep -o -m 1 '10⁻⁵' r.svg"
-fault "two parameters of a sweep" "two lines in the key (0)" "printf 'row,mu_Pa_s,v_m_s,status,wp_um\n1,1,1,sound,5\n2,2,1,sound,6\n3,1,2,sound,7\n4,2,2,sound,8\n' >t.csv; bond-figures response t.csv -o r.svg -q; grep -c 'v (m/s) [12]' r.svg"
+fault "a pressure at its limit" "the three strokes of one bar (0)" "$SWEEP; bond-figures response t.csv --result pressure_pa -o r.svg -q; grep -o 'stroke-width=.11' r.svg | wc -l"
+fault "two parameters of a sweep" "two lines in the key (0)" "printf 'row,mu_Pa_s,v_m_s,status,wp_um\n1,1,1,sound,5\n2,2,1,sound,6\n3,1,2,sound,7\n4,2,2,sound,8\n' >t.csv; bond-figures response t.csv -o r.svg -q; grep -c '^mu (Pa s) [12]' r.svg"
 for table in "map:wp-metrics -q r1/final.mpts -o - --map r1/t.csv >/dev/null:--map" \
     "shear:shear-stats -q r1/final.mpts -o r1/t.csv:" \
     "penetration:wp-metrics -q --series r1 -o r1/t.csv:"; do
