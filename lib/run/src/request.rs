@@ -53,15 +53,22 @@ impl Request {
     /// # Errors
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
+        let is_stdin = |path: &Path| path == Path::new("-");
+        if is_stdin(case) && bond.is_some_and(is_stdin) {
+            return refused("'-' can be read only once: name a file for the case or the bond");
+        }
+        let place = |path: &Path| match is_stdin(path) {
+            true => PathBuf::from("/dev/stdin"),
+            false => path.to_owned(),
+        };
         let original = case_text(case)?;
         let text = with_changes(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;
         let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
-        let mut places = vec![case.to_owned()];
+        let mut places = vec![place(case)];
         let bond = match bond {
             Some(path) => {
-                let stdin = path == Path::new("-");
-                places.push(if stdin { Path::new("/dev/stdin") } else { path }.into());
+                places.push(place(path));
                 let file = ParticleFile::read(path)?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)

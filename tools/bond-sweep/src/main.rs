@@ -48,9 +48,9 @@ enum Step {
   bond-sweep plan large.csv --case pf-xpic.toml --yes-really -o sweep
   bond-sweep plan table.csv --case pf-implicit.toml -o sweep && wc -l sweep/runs.txt")]
     Plan {
-        /// Table of the runs (CSV)
+        /// Table of the runs (CSV); '-' is standard input, its paths then start from the working folder
         table: PathBuf,
-        /// Case file of rows without a case of their own
+        /// Case file of rows without a case of their own; '-' is standard input
         #[arg(long, value_name = "CASE.toml")]
         case: PathBuf,
         /// Folder of the sweep
@@ -95,11 +95,20 @@ fn main() -> ExitCode {
 fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.step {
         Step::Plan {
-            table,
-            case,
+            mut table,
+            mut case,
             output,
             yes_really,
-        } => plan::make(&table, &case, &output, yes_really),
+        } => {
+            // A case is read for each row, a table once.
+            let text = |head: &[u8]| !head.contains(&0);
+            let both = [&mut table, &mut case].into_iter();
+            let _spooled = match case.as_os_str() == "-" {
+                true => cli::stdin_in_place(both, text)?,
+                false => None,
+            };
+            plan::make(&table, &case, &output, yes_really)
+        }
         Step::Run { folder, run } => press::run(&folder, &run),
         Step::Collect {
             folder,
