@@ -7,8 +7,8 @@ group=$! signalled=
 # How a job ended is not told a second time.
 exec 2>/dev/null
 for signal in INT TERM HUP QUIT USR1 USR2 XCPU; do trap "signalled=yes; kill -$signal -- -$group" $signal; done
-trap 'kill -STOP -- -$group; kill -STOP $$' TSTP
-trap 'kill -CONT -- -$group' CONT
+# SIGCONT has no trap of its own: bash loses a signal that comes with it.
+trap 'kill -STOP -- -$group; kill -STOP $$; kill -CONT -- -$group' TSTP
 # What reads this sees the pipe close without a line where this process is killed.
 exec 8> >(set -m; { read -r || kill -KILL -- -$group; } <&0 &)
 while wait $group; status=$?; kill -0 $group; do :; done

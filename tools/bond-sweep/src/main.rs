@@ -102,9 +102,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         } => {
             // A case is read for each row, a table once.
             let text = |head: &[u8]| !head.contains(&0);
-            let both = [&mut table, &mut case].into_iter();
             let _spooled = match case.as_os_str() == "-" {
-                true => cli::stdin_in_place(both, text)?,
+                true => cli::stdin_in_place([&mut table, &mut case], text)?,
                 false => None,
             };
             plan::make(&table, &case, &output, yes_really)
