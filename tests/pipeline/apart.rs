@@ -184,7 +184,7 @@ fn files_of_runs_and_sweeps_are_written_by_their_own_tools_alone() {
     }
     assert!(tried > 2 * others.len(), "{tried}");
     for line in [
-        "wp-metrics --series r -o link/0000.mpts",
+        "wp-metrics r/final.mpts -o link/0000.mpts",
         "wp-metrics --series r -o r/checkpoint.mpts",
         "cd r/snapshots; wp-metrics ../final.mpts -o ../history.csv",
     ] {

@@ -84,7 +84,8 @@ fn within(seconds: u64, what: impl Fn() -> bool) -> bool {
 #[test]
 fn a_make_that_is_told_to_end_ends_its_runs_and_one_that_waits_says_for_whom() {
     let bench = with_stack();
-    for (signal, to) in [("TERM", ""), ("INT", ""), ("HUP", ""), ("KILL", "-")] {
+    // A terminal signals all of its processes, a batch system one.
+    for (signal, to) in [("TERM", ""), ("INT", "-"), ("HUP", "-"), ("KILL", "-")] {
         // A name that no other test's runs have.
         let name = bench.folder().file_name().unwrap().to_string_lossy();
         let out = format!("{signal}{name}");

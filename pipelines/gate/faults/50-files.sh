@@ -1,15 +1,17 @@
 # Files that were replaced, lost or locked, and pipes that were taken for files.
-PRESSED='synth-xct -q --adhesive pf --size 24x64x24 --seed 1 -o s.tif; xct2particles -q s.tif -o s.mpts 2>/dev/null; build-bondline -q s.mpts -o b.mpts; cp $BIN/../../pipelines/cases/pf-implicit.toml c.toml; mpm-run -q c.toml --particles b.mpts --set "clamp.stop=4 us" -o r 2>/dev/null'
+PRESSED='synth-xct -q --adhesive pf --size 24x64x24 --seed 1 -o s.tif; xct2particles -q s.tif -o s.mpts 2>/dev/null; build-bondline -q s.mpts -o b.mpts 2>/dev/null; cp $BIN/../../pipelines/cases/pf-implicit.toml c.toml; mpm-run -q c.toml --particles b.mpts --set "clamp.stop=4 us" -o r 2>/dev/null'
 PLANNED='printf "particles,clamp.stop\nb.mpts,4 us\n" >t.csv; bond-sweep plan -q t.csv --case c.toml -o s; bond-sweep run -q s $(cat s/runs.txt) 2>/dev/null'
 KEPT='kept() { local was=$(cksum <"$1"); shift; "$@" >/dev/null 2>&1; echo "exit $?, $([ "$was" = "$(cksum <"$file")" ] && echo kept || echo replaced)"; }; file'
 CLONE='cp -r $BIN/../../Makefile $BIN/../../pipelines $BIN/../../Cargo.toml .; mkdir target; ln -s $BIN target/release'
 QUICK='make -s CARGO=true XCT_PF=s.tif ERROR=no OUT=o'
 
-for file in final.mpts history.csv summary.json resolved.toml bondline-run.toml snapshots/0001.mpts; do
+for file in final.mpts history.csv summary.json resolved.toml bondline-run.toml; do
     fault "wp-metrics --series r -o r/$file" "exit 2, kept" "$PRESSED; $KEPT=r/$file; kept \$file wp-metrics --series r -o \$file"
 done
 fault "wp-metrics --profile r/final.mpts" "exit 2, kept" "$PRESSED; $KEPT=r/final.mpts; kept \$file wp-metrics r/snapshots/0001.mpts -o w.csv --profile \$file"
-fault "bond-report -o r/history.csv" "exit 2, kept" "$PRESSED; $KEPT=r/history.csv; kept \$file bond-report --run r -o \$file"
+for file in history.csv snapshots/0001.mpts; do
+    fault "bond-report -o r/$file" "exit 2, kept" "$PRESSED; $KEPT=r/$file; kept \$file bond-report --run r -o \$file"
+done
 fault "bond-sweep collect -o t.csv, its table" "exit 2, kept" "$PRESSED; $PLANNED; $KEPT=t.csv; kept \$file bond-sweep collect s -o \$file"
 fault "bond-sweep collect -o s/runs.txt" "exit 2, kept" "$PRESSED; $PLANNED; $KEPT=s/runs.txt; kept \$file bond-sweep collect s -o \$file"
 fault "bond-sweep plan of another table into s" "exit 2, kept" "$PRESSED; $PLANNED; cp t.csv u.csv; echo b.mpts,5 us >>u.csv; $KEPT=s/plan.json; kept \$file bond-sweep plan u.csv --case c.toml -o s"

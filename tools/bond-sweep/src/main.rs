@@ -100,6 +100,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             output,
             yes_really,
         } => {
+            if output.as_os_str() == "-" {
+                return Err(Failure::usage(
+                    "a sweep is a folder of files and cannot go to standard output: -o FOLDER is needed",
+                ));
+            }
             // A case is read for each row, a table once.
             let text = |head: &[u8]| !head.contains(&0);
             let _spooled = match case.as_os_str() == "-" {
