@@ -235,7 +235,7 @@ fn cases_tables_and_what_a_page_shows_may_come_from_a_pipe() {
         "bond-report --table a=- --picture b=- -o O",
         "bond-sweep plan - --case - -o O",
         "mpm-run - --particles - -o O",
-        "bond-figures map - - -o O.svg",
+        "bond-figures map --map - --map - -o O.svg",
     ] {
         bench.ends(2, line, "'-' can be read only once");
     }

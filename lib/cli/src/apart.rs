@@ -1,5 +1,4 @@
-//! Outputs that would replace what is read, one another, a file of a run or a sweep, or what is write-protected are refused, and
-//! those without a folder.
+//! Outputs that would replace what is not theirs to replace are refused, and those without a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};

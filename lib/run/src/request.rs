@@ -53,14 +53,12 @@ impl Request {
     /// # Errors
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
-        let is_stdin = |path: &Path| path == Path::new("-");
-        if is_stdin(case) && bond.is_some_and(is_stdin) {
+        let stdin = Path::new("-");
+        if case == stdin && bond == Some(stdin) {
             return refused("'-' can be read only once: name a file for the case or the bond");
         }
-        let place = |path: &Path| match is_stdin(path) {
-            true => PathBuf::from("/dev/stdin"),
-            false => path.to_owned(),
-        };
+        let named = Path::new("/dev/stdin");
+        let place = |path| PathBuf::from(if path == stdin { named } else { path });
         let original = case_text(case)?;
         let text = with_changes(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;

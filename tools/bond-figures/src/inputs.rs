@@ -1,7 +1,7 @@
 //! The files of a figure.
 
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use cli::{Failure, InputRecord, Output, Record};
 use figures::{Case, Labelled, read_beside};
