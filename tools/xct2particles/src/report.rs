@@ -1,6 +1,6 @@
 //! Messages of the tool on standard error.
 
-use metrics::LevelledSpecimen;
+use metrics::{GreyDoubt, Tilt};
 use units::Axis;
 use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
@@ -78,12 +78,21 @@ pub(crate) fn noise(specimen: &Segmented) {
     }
 }
 
+/// What noise makes of a segmentation by grey values.
+pub(crate) fn doubt(doubt: Option<&GreyDoubt>) {
+    match doubt {
+        Some(doubt) if doubt.overlaps() => cli::warn(format_args!(
+            "phases overlap: {doubt}; --denoise takes noise out"
+        )),
+        Some(doubt) => cli::note(format_args!("noise       {doubt}")),
+        None => {}
+    }
+}
+
 /// How a specimen was turned.
-pub(crate) fn level(turned: &LevelledSpecimen) {
-    let [x, y, z] = turned.wood.dims();
+pub(crate) fn level(tilt: &Tilt, [x, y, z]: [usize; 3]) {
     cli::note(format_args!(
-        "level       the bond plane was {}; after levelling, {x} x {y} x {z} voxels are left",
-        turned.tilt
+        "level       the bond plane was {tilt}; after levelling, {x} x {y} x {z} voxels are left"
     ));
 }
 
@@ -111,9 +120,7 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
             cli::warn("no voxel is wood");
         }
     }
-    if adhesive > wood {
-        cli::warn("more voxels are adhesive than wood: are the labels exchanged?");
-    }
+    specimen.walls_of_adhesive().into_iter().for_each(cli::warn);
     let um = edge * 1e6;
     let columns = total / dims[normal.index()];
     let area = columns as f64 * um * um;

@@ -230,3 +230,63 @@ fn void_at_all_corners_stays_a_phase() {
         assert_eq!(specimen.wrong(&stored), 0.0, "{inside}");
     }
 }
+
+/// The noise is found as it was put in, whatever else is in the stack.
+#[test]
+fn the_noise_is_that_of_the_phases() {
+    let clean = || Specimen::new(0.12);
+    let spoiled = clean().spoiled(40, 1e6).spoiled(40, -1e6);
+    for (i, specimen) in [
+        clean(),
+        spoiled,
+        clean().in_circle(12.0),
+        clean().in_circle(65.535),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for (kind, step) in [(U8, 5.0), (U16, 1000.0), (NARROW, 6.0), (F32, 0.002)] {
+            let histogram = specimen.stored(kind).histogram();
+            let grey = histogram.propose(false).unwrap().grey;
+            let noise = histogram.noise(&grey) / step;
+            assert!((noise / 1.5 - 1.0).abs() < 0.15, "{i}, {}: {noise}", kind.0);
+            assert!(histogram.in_doubt(&grey, noise * step) < 0.01);
+        }
+    }
+}
+
+/// A median is one of the values: outliers go, an edge stays where it is, at the sides of the crop too.
+#[test]
+fn the_median_filter_takes_outliers_and_leaves_edges() {
+    let edge = |i: usize| if i % DIMS[0] < 19 { 10.0 } else { 22.0 };
+    let mut specimen = Specimen::new(0.12);
+    specimen.grey = (0..DIMS.iter().product()).map(edge).collect();
+    for outlier in [0, 17, 5_000, 7_777] {
+        specimen.grey[outlier] = 34.0;
+    }
+    for (i, kind) in [U8, U16, I32, F32].into_iter().enumerate() {
+        let stored = specimen.stored(kind);
+        for crop in ["0:40,0:40,0:12", "3:38,1:40,2:9", "17:21,4:5,6:7"] {
+            let crop: Crop = crop.parse().unwrap();
+            let denoised = stored.stack.denoised(&crop, || ()).unwrap();
+            assert_eq!(denoised.dims(), crop.dims());
+            let mut page = Vec::new();
+            for z in 0..crop.dims()[2] {
+                denoised.read_page(z, &mut page).unwrap();
+                let expected = (crop.ranges()[1].clone())
+                    .flat_map(|_| crop.ranges()[0].clone())
+                    .flat_map(|x| (kind.1)(edge(x)));
+                assert!(expected.eq(page.iter().copied()), "{i}, page {z}");
+            }
+        }
+    }
+    specimen.grey[3 * 1600 + 5 * 40 + 7] = f64::NAN;
+    let denoised = specimen
+        .stored(F32)
+        .stack
+        .denoised(&"1:40,2:40,1:9".parse().unwrap(), || ());
+    assert_says(
+        denoised.map(|_| ()),
+        &["page 4", "column 7, row 5 holds NaN"],
+    );
+}
