@@ -14,13 +14,11 @@ use crate::{Crop, Error, Stack};
 const WINDOW: u64 = 3 * (1 + size_of::<f64>() as u64);
 
 impl Stack {
-    /// The voxels of `crop` as a stack of its own in a temporary file: each has the median of those that share a face, an
-    /// edge or a corner with it and of itself (Tukey 1977; in the plane, Huang, Yang & Tang 1979). Steps between phases
-    /// stay where they are; what is one voxel thin may go. `on_page` is called after each page.
+    /// The voxels of `crop` as a stack of its own in a temporary file: each has the median of itself and its neighbours at
+    /// faces, edges and corners (Tukey 1977). Edges of phases stay; what is one voxel thin may go. `on_page` follows each page.
     ///
     /// # Errors
-    /// A page that cannot be read, pixels that are not one number, a crop that reaches out of the stack, too little memory
-    /// or room for the temporary file.
+    /// A page that cannot be read, pixels that are not one finite number, a crop that reaches out, too little memory or room.
     pub fn denoised(&self, crop: &Crop, on_page: impl Fn()) -> Result<Self, Error> {
         crop.check(self.dims())?;
         self.check_grey()?;
@@ -45,11 +43,8 @@ impl Stack {
         }
         let file = out.into_inner().map_err(IntoInnerError::into_error);
         let source = self.sources()[0].with_content(file.map_err(failed)?)?;
-        Self::new(
-            self.name().to_owned(),
-            raw.volume(vec![source], None)?,
-            None,
-        )
+        let volume = raw.volume(vec![source], None)?;
+        Self::new(self.name().to_owned(), volume, None)
     }
 
     /// The bytes of page `z` of `crop` after the filter.
@@ -71,12 +66,11 @@ impl Stack {
             let own = [x, y, z - pages.start];
             let value = values[place(own)];
             if !value.is_finite() {
-                let [x0, y0, z0] = [0, 1, 2].map(|axis| crop.ranges()[axis].start);
+                let at = [0, 1, 2].map(|axis| crop.ranges()[axis].start + [x, y, z][axis]);
+                let page = self.page_name(at[2]);
                 return Err(Error::Usage(format!(
-                    "{}: the pixel at column {}, row {} holds {value}, and that is no grey value: leave it out by --crop",
-                    self.page_name(z0 + z),
-                    x0 + x,
-                    y0 + y
+                    "{page}: the pixel at column {}, row {} holds {value}, and that is no grey value: leave it out by --crop",
+                    at[0], at[1]
                 )));
             }
             near.clear();

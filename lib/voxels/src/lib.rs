@@ -57,6 +57,7 @@ pub use histogram::Histogram;
 pub use label::Label;
 pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
 pub use lattice::pieces;
+pub use noise::Doubt;
 pub use otsu::{GreyLevels, Proposal};
 pub use phases::{Grey, Labels, Phase, Phases};
 pub use raw::{Dims, RawType};

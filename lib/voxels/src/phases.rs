@@ -128,15 +128,6 @@ impl Grey {
         }
     }
 
-    /// The lowest and the highest value from which a phase begins; those that are open do not count.
-    pub(crate) fn outer_thresholds(&self) -> (f64, f64) {
-        let low = [Some(self.wood), self.adhesive].into_iter().flatten();
-        let finite = low.map(|(low, _)| low).filter(|low| low.is_finite());
-        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), low| {
-            (a.min(low), b.max(low))
-        })
-    }
-
     /// Void below the first threshold, wood from there on, adhesive from the second on where there is
     /// one. What is at `top` and above is void again. `whole` numbers end at the last before the next.
     pub(crate) fn of_thresholds(thresholds: &[f64], top: Option<f64>, whole: bool) -> Self {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use particle_file::{BitGrid, Material, ParticleFile};
+use particle_file::{BitGrid, BitsRef, Material, ParticleFile};
 
 use crate::lattice::pieces;
 use crate::{Phase, Segmented};
@@ -65,9 +65,8 @@ impl Segmented {
             && filled(layers - quarter..layers)
     }
 
-    /// A sentence where wood and void look exchanged: across its cells wood is more pieces than void, as lumens are, and the
-    /// wider of the two, as walls are not. Thin walls that the resolution broke are many pieces too, but narrow. Where
-    /// adhesive left hardly a void there is nothing to compare.
+    /// A sentence where wood and void look exchanged: across its cells wood is more pieces than void, and the wider of the two,
+    /// as lumens are. Thin walls that the resolution broke are many pieces too, but narrow.
     fn is_void_wood(&self) -> Option<String> {
         let (axis, cells) = self.cross_section()?;
         let ([void, wood, _], pixels) = (cells.pieces, cells.pixels);
@@ -138,59 +137,32 @@ impl Cells {
     /// Adds a section of rows of `width`.
     fn add(&mut self, section: &[Phase], width: usize) {
         for (phase, piece) in pieces(section, width, false) {
-            if piece.len() >= PIECE {
-                self.pieces[phase as usize] += 1;
+            self.pieces[phase as usize] += usize::from(piece.len() >= PIECE);
+        }
+        let n = section.len();
+        let mut depths = vec![n; n];
+        // From the first pixel on and back again, each by the two neighbours that were before it.
+        for step in 0..2 * n {
+            let (i, [before, above]) = if step < n {
+                let i = step;
+                (i, [(i % width > 0).then(|| i - 1), i.checked_sub(width)])
+            } else {
+                let i = 2 * n - 1 - step;
+                (i, [((i + 1) % width > 0).then_some(i + 1), Some(i + width)])
+            };
+            for at in before.into_iter().chain(above).filter(|at| *at < n) {
+                let is_alike = section[at] == section[i];
+                depths[i] = depths[i].min(1 + depths[at] * usize::from(is_alike));
+                if section[i] == Phase::Void {
+                    self.beside_void[section[at] as usize] += 1;
+                }
             }
         }
-        for (phase, depth) in section.iter().zip(depths(section, width)) {
+        for (phase, depth) in section.iter().zip(depths) {
             self.pixels[*phase as usize] += 1;
             self.depth[*phase as usize] += depth;
         }
-        let rows = section.chunks(width);
-        let along = rows.flat_map(|row| row.windows(2).map(|pair| [pair[0], pair[1]]));
-        let across = section.iter().zip(section.iter().skip(width));
-        for pair in along.chain(across.map(|(a, b)| [*a, *b])) {
-            match pair {
-                [Phase::Void, other] | [other, Phase::Void] => {
-                    self.beside_void[other as usize] += 1
-                }
-                _ => {}
-            }
-        }
     }
-}
-
-/// How far the pixels of a section of rows of `width` are from the next of another phase, in steps by edges and corners; the
-/// sides of the section are none.
-fn depths(section: &[Phase], width: usize) -> Vec<usize> {
-    let height = section.len() / width;
-    let mut depths = vec![width + height; section.len()];
-    // Once from the first pixel on and once back, each by the four neighbours that were before it.
-    for back in [false, true] {
-        for step in 0..section.len() {
-            let i = if back { section.len() - 1 - step } else { step };
-            for (u, v) in [(-1, -1), (0, -1), (1, -1), (-1, 0)] {
-                let (u, v) = if back { (-u, -v) } else { (u, v) };
-                let beside = [
-                    (i % width).checked_add_signed(u),
-                    (i / width).checked_add_signed(v),
-                ];
-                if let [Some(x), Some(y)] = beside
-                    && x < width
-                    && y < height
-                {
-                    let at = y * width + x;
-                    let through = if section[at] == section[i] {
-                        depths[at] + 1
-                    } else {
-                        1
-                    };
-                    depths[i] = depths[i].min(through);
-                }
-            }
-        }
-    }
-    depths
 }
 
 /// [`Segmented::swapped`] of an adherend of a bond or state; nothing of a damaged file.
@@ -200,8 +172,12 @@ pub fn swapped_in_file(file: &ParticleFile) -> Option<String> {
         if block.material != Material::Rigid {
             return None;
         }
-        let wood = BitGrid::from_words(bits.dims(), bits.words().to_vec())?;
-        let adhesive = BitGrid::new(bits.dims());
+        let grid = |bits: BitsRef| BitGrid::from_words(bits.dims(), bits.words().to_vec());
+        let wood = grid(bits)?;
+        // Beside the wood of a specimen, in the same box; that of a bond is between its adherends.
+        let adhesive = file.block_named("adhesive").ok().map(|(_, bits)| bits);
+        let adhesive = adhesive.filter(|bits| bits.dims() == wood.dims());
+        let adhesive = adhesive.map_or_else(|| Some(BitGrid::new(wood.dims())), grid)?;
         let segmented = Segmented {
             wood,
             adhesive,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use bondline::{PlacedVoxels, Specimen};
 use cli::{Failure, InputRecord};
-use metrics::{Adhesive, GreyDoubt, State};
+use metrics::{Adhesive, State};
 use particle_file::{BitGrid, Header, Kind, Mapped, ParticleFile, temporary_file};
 use units::Axis;
 use voxels::{Crop, GreyLevels, Histogram, Phases, Segmented, Source, Stack, VoxelEdge};
@@ -198,15 +198,13 @@ fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<
     let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
     voxels.swapped().into_iter().for_each(cli::warn);
     if let Phases::Grey(grey) = &phases {
-        let measured = (edge.metres, arguments.normal.unwrap_or(Axis::Y));
-        let doubt = GreyDoubt::of(&stack, &whole, grey, measured, |_| Ok(()));
-        match doubt.map_err(stack_failure)? {
-            Some(doubt) if doubt.overlaps() => cli::warn(format_args!(
-                "{}: phases overlap: {doubt}; xct2particles --denoise takes noise out",
+        let histogram = Histogram::of(&stack, &whole).map_err(stack_failure)?;
+        let doubt = histogram.doubt(grey);
+        if doubt.overlaps() {
+            cli::warn(format_args!(
+                "{}: phases overlap: {doubt}; xct2particles tells what that does to penetration, and --denoise there takes noise out",
                 stack.name()
-            )),
-            Some(doubt) => cli::note(format_args!("{}: {doubt}", stack.name())),
-            None => {}
+            ));
         }
     }
     if let Some([void, wood, adhesive]) = voxels.guessed {

@@ -1,6 +1,7 @@
 //! A label stack as a particle file of a specimen.
 
 mod arguments;
+mod doubt;
 mod report;
 
 use std::fs::File;
@@ -13,7 +14,7 @@ use arguments::Arguments;
 use bondline::{PlacedVoxels, Specimen};
 use cli::{Failure, Output, Progress};
 use figures::{Cut, Page, Position, Slices};
-use metrics::{GreyDoubt, Tilt};
+use metrics::Tilt;
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use rayon::prelude::*;
 use units::Axis;
@@ -85,9 +86,12 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let level = |normal| level(segmented, normal, &edge).map(|_| ());
             arguments.level.map_or(Ok(()), level)
         };
-        let measured = (edge.metres, across(&arguments));
-        let doubt = GreyDoubt::of(values, kept, grey, measured, prepared).map_err(failure)?;
-        report::doubt(doubt.as_ref());
+        let doubt = Histogram::of(values, kept).map_err(failure)?.doubt(grey);
+        if doubt.share > 0.0 {
+            let bond = (edge.metres, across(&arguments));
+            let moved = doubt::moved((values, kept), (grey, doubt), bond, prepared);
+            report::doubt(doubt, &moved.map_err(failure)?);
+        }
     }
     report::phases(&segmented, edge.metres, across(&arguments));
     let draft = draft(&segmented, &edge, &crop, &arguments, inputs);

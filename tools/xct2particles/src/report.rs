@@ -1,8 +1,8 @@
 //! Messages of the tool on standard error.
 
-use metrics::{GreyDoubt, Tilt};
+use metrics::Tilt;
 use units::Axis;
-use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
+use voxels::{Crop, Despeckled, Doubt, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -78,14 +78,14 @@ pub(crate) fn noise(specimen: &Segmented) {
     }
 }
 
-/// What noise makes of a segmentation by grey values.
-pub(crate) fn doubt(doubt: Option<&GreyDoubt>) {
-    match doubt {
-        Some(doubt) if doubt.overlaps() => cli::warn(format_args!(
-            "phases overlap: {doubt}; --denoise takes noise out"
+/// How much of a segmentation by grey values the noise decides, and what thresholds `moved` by it give.
+pub(crate) fn doubt(doubt: Doubt, moved: &str) {
+    let said = format!("{doubt}; with thresholds moved by it {moved}");
+    match doubt.overlaps() {
+        true => cli::warn(format_args!(
+            "phases overlap: {said}; --denoise takes noise out"
         )),
-        Some(doubt) => cli::note(format_args!("noise       {doubt}")),
-        None => {}
+        false => cli::note(format_args!("noise       {said}")),
     }
 }
 

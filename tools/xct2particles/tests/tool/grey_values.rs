@@ -79,7 +79,15 @@ fn phases_that_overlap_are_told_with_what_that_does() {
     let bench = bench();
     let raw = "--dims 40x60x40 --type u8 --voxel 2um --grey auto -o o.mpts";
     for (noise, overlaps) in [(0.0, None), (6.0, Some(false)), (20.0, Some(true))] {
-        let value = |i| (mean(i) + noise * bell(i)).round().clamp(0.0, 255.0);
+        // Hot pixels are no noise.
+        let hot = |i| {
+            if noise > 0.0 && i % 2000 == 0 {
+                255.0
+            } else {
+                mean(i) + noise * bell(i)
+            }
+        };
+        let value = |i| f64::round(hot(i)).clamp(0.0, 255.0);
         let values: Vec<u8> = (0..40 * 60 * 40).map(|i| value(i) as u8).collect();
         bench.write("a.raw", &values);
         let said = told(&bench, &format!("a.raw {raw}"), 0, &[]);
@@ -122,5 +130,59 @@ fn phases_that_overlap_are_told_with_what_that_does() {
         "a.raw --voxel 1um --denoise -o o.mpts",
         2,
         &["--grey"],
+    );
+}
+
+/// A median is one of the values: outliers go, an edge stays where it is, at the sides of the crop too.
+#[test]
+fn the_median_filter_takes_outliers_and_leaves_edges() {
+    let bench = bench();
+    let edge = |i: usize| [10.0_f32, 22.0, 34.0][i % 40 / 14];
+    let mut values: Vec<f32> = (0..40 * 30 * 12).map(edge).collect();
+    for outlier in [0, 17, 5_000, 7_777, 14_399] {
+        values[outlier] = 34.0 - values[outlier];
+    }
+    let raw = "--dims 40x30x12 --voxel 2um --grey wood=15..30,adhesive=31.. --denoise -o o.mpts";
+    let mut run = |kind: &str, bytes: Vec<u8>, crop: &str, status, said: &[&str]| {
+        bench.write("a.raw", bytes);
+        told(
+            &bench,
+            &format!("a.raw {raw} --type {kind} --crop {crop}"),
+            status,
+            said,
+        );
+    };
+    for (crop, layers) in [
+        ("0:40,0:30,0:12", [14, 12]),
+        ("3:38,1:30,2:9", [14, 10]),
+        ("12:30,4:5,6:7", [14, 2]),
+    ] {
+        let sides: Vec<usize> = (crop.split(',').skip(1))
+            .map(|range| range.split_once(':').unwrap())
+            .map(|(from, to)| to.parse::<usize>().unwrap() - from.parse::<usize>().unwrap())
+            .collect();
+        let area = (sides[0] * sides[1]) as u64;
+        for kind in ["f32", "u8", "u16be"] {
+            let bytes = values.iter().flat_map(|v| match kind {
+                "f32" => v.to_le_bytes().to_vec(),
+                "u8" => vec![*v as u8],
+                _ => (*v as u16).to_be_bytes().to_vec(),
+            });
+            run(kind, bytes.collect(), crop, 0, &[]);
+            assert_eq!(
+                counts(&open(&bench, "o.mpts")),
+                layers.map(|n| n * area),
+                "{kind} {crop}"
+            );
+        }
+    }
+    values[3 * 1200 + 5 * 40 + 7] = f32::NAN;
+    let bytes = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+    run(
+        "f32",
+        bytes,
+        "1:40,2:30,1:9",
+        2,
+        &["page 4", "column 7, row 5 holds NaN"],
     );
 }
