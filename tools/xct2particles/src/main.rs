@@ -90,7 +90,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         if doubt.share > 0.0 {
             let bond = (edge.metres, across(&arguments));
             let moved = doubt::moved((values, kept), (grey, doubt), bond, prepared);
-            report::doubt(doubt, &moved.map_err(failure)?);
+            let cure = match arguments.denoise {
+                true => "look at it by --preview",
+                false => "--denoise takes noise out",
+            };
+            report::doubt(doubt, &moved.map_err(failure)?, cure);
         }
     }
     report::phases(&segmented, edge.metres, across(&arguments));

@@ -78,13 +78,11 @@ pub(crate) fn noise(specimen: &Segmented) {
     }
 }
 
-/// How much of a segmentation by grey values the noise decides, and what thresholds `moved` by it give.
-pub(crate) fn doubt(doubt: Doubt, moved: &str) {
+/// How much of a segmentation by grey values the noise decides, what thresholds `moved` by it give, and the `cure`.
+pub(crate) fn doubt(doubt: Doubt, moved: &str, cure: &str) {
     let said = format!("{doubt}; with thresholds moved by it {moved}");
     match doubt.overlaps() {
-        true => cli::warn(format_args!(
-            "phases overlap: {said}; --denoise takes noise out"
-        )),
+        true => cli::warn(format_args!("phases overlap: {said}; {cure}")),
         false => cli::note(format_args!("noise       {said}")),
     }
 }

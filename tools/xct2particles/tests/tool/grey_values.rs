@@ -78,7 +78,7 @@ fn numbers<const N: usize>(said: &str, word: &str) -> [f64; N] {
 fn phases_that_overlap_are_told_with_what_that_does() {
     let bench = bench();
     let raw = "--dims 40x60x40 --type u8 --voxel 2um --grey auto -o o.mpts";
-    for (noise, overlaps) in [(0.0, None), (6.0, Some(false)), (20.0, Some(true))] {
+    for (noise, overlaps) in [(0.0, None), (10.0, Some(false)), (20.0, Some(true))] {
         // Hot pixels are no noise.
         let hot = |i| {
             if noise > 0.0 && i % 2000 == 0 {
@@ -143,7 +143,7 @@ fn the_median_filter_takes_outliers_and_leaves_edges() {
         values[outlier] = 34.0 - values[outlier];
     }
     let raw = "--dims 40x30x12 --voxel 2um --grey wood=15..30,adhesive=31.. --denoise -o o.mpts";
-    let mut run = |kind: &str, bytes: Vec<u8>, crop: &str, status, said: &[&str]| {
+    let run = |kind: &str, bytes: Vec<u8>, crop: &str, status, said: &[&str]| {
         bench.write("a.raw", bytes);
         told(
             &bench,
