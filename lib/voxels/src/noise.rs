@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::histogram::Scale;
 use crate::{Grey, Histogram};
 
 /// Share of the voxels in doubt from which phases overlap: their bell curves are then closer than 4 standard deviations.
@@ -33,7 +34,12 @@ impl Histogram {
         let bright = (0..=last).take_while(|i| phase(last - i) == phase(last));
         let bright: Vec<f64> = bright.map(|i| counts[last - i]).collect();
         let steps = flank(&counts[..dark]).max(flank(&bright));
-        let noise = steps * (self.scale.value(1) - self.scale.value(0));
+        // In whole steps: between two ranges of whole numbers no value is.
+        let noise = Scale {
+            first: 0,
+            ..self.scale
+        }
+        .value(steps.round() as usize);
         let [low, high] = [-noise, noise].map(|by| grey.moved(by));
         let doubtful = |(value, _): &(f64, u64)| low.phase(*value) != high.phase(*value);
         let voxels: u64 = self.values().filter(doubtful).map(|(_, n)| n).sum();
@@ -54,7 +60,7 @@ impl fmt::Display for Doubt {
         let (percent, noise) = (100.0 * self.share, self.noise);
         write!(
             f,
-            "{percent:.1} % of the voxels are in doubt, within the noise (a standard deviation of {noise:.3}) of a threshold"
+            "{percent:.1} % of the voxels are in doubt, within the noise (a standard deviation of {noise}) of a threshold"
         )
     }
 }
@@ -77,7 +83,8 @@ fn flank(counts: &[f64]) -> f64 {
         let share = f64::from(*percent) / 100.0;
         quantile(share + 0.25) - quantile(share)
     };
-    let shortest = (0..75).min_by(|a, b| length(a).total_cmp(&length(b)));
+    // Half of the phase is before its middle, and what is mixed in is behind: the middle is hardly beyond half of all.
+    let shortest = (0..=40).min_by(|a, b| length(a).total_cmp(&length(b)));
     let middle = f64::from(shortest.unwrap_or(0)) / 100.0 + 0.125;
     let deviation = (quantile(middle) - quantile(0.5 * middle)) / MEDIAN;
     if deviation < 1.0 { 0.0 } else { deviation }

@@ -68,6 +68,7 @@ fn numbers<const N: usize>(said: &str, word: &str) -> [f64; N] {
     let (_, rest) = said
         .split_once(word)
         .unwrap_or_else(|| panic!("{word}: {said}"));
+    let rest = rest.replace("..", " ");
     let mut found = (rest.split(|c: char| !c.is_ascii_digit() && c != '.'))
         .filter_map(|part| part.trim_matches('.').parse().ok());
     std::array::from_fn(|_| found.next().unwrap())
