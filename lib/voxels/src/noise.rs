@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use crate::histogram::Scale;
 use crate::{Grey, Histogram};
 
 /// Share of the voxels in doubt from which phases overlap: their bell curves are then closer than 4 standard deviations.
@@ -35,11 +34,9 @@ impl Histogram {
         let bright: Vec<f64> = bright.map(|i| counts[last - i]).collect();
         let steps = flank(&counts[..dark]).max(flank(&bright));
         // In whole steps: between two ranges of whole numbers no value is.
-        let noise = Scale {
-            first: 0,
-            ..self.scale
-        }
-        .value(steps.round() as usize);
+        let mut scale = self.scale;
+        scale.first = 0;
+        let noise = scale.value(steps.round() as usize);
         let [low, high] = [-noise, noise].map(|by| grey.moved(by));
         let doubtful = |(value, _): &(f64, u64)| low.phase(*value) != high.phase(*value);
         let voxels: u64 = self.values().filter(doubtful).map(|(_, n)| n).sum();

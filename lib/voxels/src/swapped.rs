@@ -148,7 +148,10 @@ impl Cells {
                 (i, [(i % width > 0).then(|| i - 1), i.checked_sub(width)])
             } else {
                 let i = 2 * n - 1 - step;
-                (i, [((i + 1) % width > 0).then_some(i + 1), Some(i + width)])
+                (
+                    i,
+                    [(i % width + 1 < width).then_some(i + 1), Some(i + width)],
+                )
             };
             for at in before.into_iter().chain(above).filter(|at| *at < n) {
                 let is_alike = section[at] == section[i];
