@@ -6,6 +6,7 @@ use super::pore::Pore;
 use super::rows::Rows;
 
 /// Row heights, cells.
+#[derive(Clone)]
 pub(super) struct Measures {
     rows: Rows,
     /// Of each row of the grid: its height, and the least of one cell and the heights of it and its two neighbours.
@@ -33,12 +34,15 @@ impl Mesh {
         &self.measures.rows
     }
 
-    /// Sets the height of the gap, cells.
-    pub(crate) fn set_height(&mut self, height: f64) {
-        self.measures = Measures::new(Rows {
-            height,
-            ..*self.rows()
-        });
+    /// This mesh with a gap of another height, cells.
+    pub(crate) fn at_height(&self, height: f64) -> Self {
+        Self {
+            measures: Measures::new(Rows {
+                height,
+                ..*self.rows()
+            }),
+            topology: self.topology.clone(),
+        }
     }
 
     /// Height of the cell of a pore, cells.

@@ -1,6 +1,7 @@
 //! The mesh: pores and faces of a range of rows, and which of them are neighbours.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
+use std::sync::Arc;
 
 use physics::Boundary;
 use rayon::prelude::*;
@@ -12,15 +13,31 @@ use super::region::Region;
 use super::rows::Rows;
 use super::split::connected;
 
-/// The pores and faces of a range of rows. Cells are numbered x first, then y (rows), then z. Beyond each open side lies a
-/// layer of ghost cells that takes the outflow.
+/// The pores and faces of a range of rows, at a height of the gap.
+#[derive(Clone)]
 pub(crate) struct Mesh {
+    pub(super) topology: Arc<Topology>,
+    pub(super) measures: Measures,
+}
+
+impl Deref for Mesh {
+    type Target = Topology;
+
+    fn deref(&self) -> &Topology {
+        &self.topology
+    }
+}
+
+/// The part of a mesh that does not depend on the height of the gap. Cells are numbered x first, then y (rows), then z. Beyond
+/// each open side lies a layer of ghost cells that takes the outflow.
+pub(crate) struct Topology {
     pub(crate) k: usize,
     /// Cells along x, rows, cells along z, ghost cells included.
     pub(crate) size: [usize; 3],
     /// Layers of ghost cells at the low side of each axis.
     pub(crate) ghost_layers: [usize; 3],
-    pub(super) measures: Measures,
+    /// Row counts; the height is that of the gap when the mesh was built.
+    pub(super) layout: Rows,
     /// Rows of the grid that this mesh covers.
     pub(crate) range: Range<usize>,
     /// Active cells: only these have pores.
@@ -72,11 +89,11 @@ impl Mesh {
         let ghost_layers = Self::ghost_layers_of(lattice);
         let size = Self::size_of(lattice, &range);
         let cells: usize = size.iter().product();
-        let mut mesh = Self {
+        let mut mesh = Topology {
             k: lattice.k,
             size,
             ghost_layers,
-            measures: Measures::new(rows),
+            layout: rows,
             range,
             region,
             boundary: lattice.boundary,
@@ -125,8 +142,14 @@ impl Mesh {
         mesh.inner = mesh.inner_cells();
         mesh.pores.shrink_to_fit();
         mesh.faces.shrink_to_fit();
-        mesh
+        Self {
+            topology: Arc::new(mesh),
+            measures: Measures::new(rows),
+        }
     }
+}
+
+impl Topology {
 
     /// Fills `pore_faces` and `pore_face_start`.
     fn list_pore_faces(&mut self) {
@@ -230,7 +253,7 @@ impl Mesh {
 
     /// Which axes are periodic in this mesh; y only if the mesh has all rows.
     pub(crate) fn periodic(&self) -> [bool; 3] {
-        let whole = self.range.len() == self.rows().len();
+        let whole = self.range.len() == self.layout.len();
         let complete = [true, whole, true];
         std::array::from_fn(|axis| complete[axis] && self.boundary[axis] == Boundary::Periodic)
     }
@@ -306,7 +329,7 @@ impl Mesh {
     /// Whether a face has a pore in the gap or in a row next to it.
     pub(crate) fn touches_gap(&self, face: usize) -> bool {
         let [low, high] = self.faces[face].pores().map(|pore| self.row_of(pore));
-        let rows = self.rows();
+        let rows = self.layout;
         let gap = rows.below..rows.below + rows.gap + 1;
         gap.contains(&high) || gap.contains(&(low + 1))
     }
@@ -333,7 +356,7 @@ impl Mesh {
         };
         let row = indices[1] + self.range.start;
         let along =
-            self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows().len());
+            self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.layout.len());
         along || across(0) || across(2)
     }
 }

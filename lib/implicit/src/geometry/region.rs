@@ -1,6 +1,6 @@
 //! Sets of cells of a box, such as the active cells around the liquid.
 
-use super::mesh::Mesh;
+use super::mesh::Topology;
 
 /// A set of cells of a box, numbered x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -90,7 +90,7 @@ impl Region {
     }
 }
 
-impl Mesh {
+impl Topology {
     /// Cells with a pore for which `holds` is true.
     pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
         let mut region = Region::new(self.size, false);
@@ -102,9 +102,9 @@ impl Mesh {
         region
     }
 
-    /// [`Mesh::inner`].
+    /// [`Topology::inner`].
     pub(super) fn inner_cells(&self) -> Region {
-        let (range, rows) = (&self.range, self.rows().len());
+        let (range, rows) = (&self.range, self.layout.len());
         let is_cut = |row: usize| {
             range.start > 0 && row == range.start || range.end < rows && row + 1 == range.end
         };

@@ -4,7 +4,7 @@ use physics::Boundary;
 
 use super::chords::VoxelAddress;
 use super::lattice::{Lattice, MIRROR, OPEN};
-use super::mesh::{Mesh, others};
+use super::mesh::{Topology, others};
 use super::pore::{Face, Pore};
 use super::rows::RowKind;
 
@@ -14,14 +14,14 @@ use super::rows::RowKind;
 /// far field c r^(-2/3) sin(2 theta/3).
 const REENTRANT_FACTORS: [[f64; 3]; 2] = [[1.246, 1.0, 1.0], [1.493, 1.358, 1.245]];
 
-/// Reach of [`Mesh::step_proximity`] along a wall, cells, rounded up. Nearer to the end of a mesh its result may change when
+/// Reach of [`Topology::step_proximity`] along a wall, cells, rounded up. Nearer to the end of a mesh its result may change when
 /// the mesh grows.
 pub(crate) const STEP_REACH: usize = 2;
 
 /// A voxel: its cell and its position in the cell.
 type VoxelAt = (usize, [usize; 3]);
 
-impl Mesh {
+impl Topology {
     /// Lattice address of a voxel of the cell with indices x, y, z; `None` beyond the lattice.
     pub(crate) fn lattice_address(
         &self,
@@ -38,7 +38,7 @@ impl Mesh {
         }
         let at = x + across[0] * z;
         let row = y + self.range.start;
-        let (b, rows) = (voxel[1], self.rows());
+        let (b, rows) = (voxel[1], self.layout);
         let part = rows.kind(row);
         let layer = match part {
             RowKind::Below => (rows.below - 1 - row) * self.k + (self.k - 1 - b),

@@ -3,6 +3,7 @@
 use physics::{Array, Boundary, Saved, restored};
 
 use super::Implicit;
+use super::mid_step::MidStep;
 use crate::air::{Air, Gas};
 use crate::geometry::DRIFT;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
@@ -28,7 +29,7 @@ impl Implicit {
     fn void(&self) -> Vec<f64> {
         let pores = self.state.volumes.iter().enumerate();
         pores
-            .map(|(pore, volume)| (self.mesh.volume_at(pore, self.height) - volume).max(0.0))
+            .map(|(pore, volume)| (self.mesh.volume(pore) - volume).max(0.0))
             .collect()
     }
 
@@ -64,16 +65,15 @@ impl Implicit {
         Some(air)
     }
 
-    /// The boundary conditions at the surface of the liquid; `viscosity` is that of the liquid over the unit.
+    /// The boundary conditions at the surface of the liquid.
     pub(super) fn fronts(
         &self,
         unknowns: &Unknowns,
         torn: &[bool],
         air: Option<&Air>,
-        viscosity: f64,
-        dt: f64,
+        middle: &MidStep,
     ) -> Fronts {
-        let setup = &self.setup;
+        let (setup, dt) = (&self.setup, middle.dt);
         let (tension, wetting) = (setup.liquid.cavitation_pressure, setup.liquid.wetting);
         if air.is_none() && tension.is_none() && wetting.is_none() {
             return Fronts::default();
@@ -91,14 +91,14 @@ impl Implicit {
         let wetting = wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
             cosine: wetting.contact_angle.cos(),
-            dynamic_coefficient: setup.settings.dynamic_angle * viscosity,
+            dynamic_coefficient: setup.settings.dynamic_angle * middle.viscosity,
             dt,
             step_ratio: match self.state.steps {
                 0 => 1.0,
                 _ => (self.state.dt / dt).min(1.0),
             },
         });
-        let geometry = (&setup.lattice, &setup.chords, &self.mesh);
+        let geometry = (&setup.lattice, &setup.chords, &middle.mesh);
         let before = &self.state.flow.velocity;
         Fronts::new(geometry, (unknowns, torn), around, wetting, before)
     }
@@ -109,19 +109,19 @@ impl Implicit {
         &self,
         unknowns: &Unknowns,
         flow: &Flow,
-        dt: f64,
+        middle: &MidStep,
         torn: &mut [bool],
     ) -> bool {
         let Some(tension) = self.setup.liquid.cavitation_pressure else {
             return false;
         };
         let lowest = -tension / self.setup.units.viscosity;
-        let mesh = &self.mesh;
+        let mesh = &middle.mesh;
         let outflow = |face: usize| mesh.area(face) * flow.velocity[face];
         let mut changed = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
-                true => mesh.net_outflow(pore, outflow) * dt > DRIFT,
+                true => mesh.net_outflow(pore, outflow) * middle.dt > DRIFT,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
             changed |= now != *torn;

@@ -16,7 +16,18 @@ enum Control {
     Pid(PidControl),
 }
 
-/// Load control: an upper limit on pressure, which is active or not.
+/// What sets the speed of a clamp under load control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sets {
+    /// Its full speed: the pressure is below the limit.
+    Full,
+    /// The limit: the speed is an unknown.
+    Limit,
+    /// Its least speed: it cannot give way as fast as the limit asks.
+    Least,
+}
+
+/// Load control: an upper limit on pressure.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoadControl {
     /// Largest and least speed, m/s; the least is negative where the clamp may retreat.
@@ -24,7 +35,9 @@ pub(super) struct LoadControl {
     /// Pressure limit, and the lower bound on its scale of error, Pa.
     pub(super) limit: f64,
     min_scale: f64,
-    active: bool,
+    sets: Sets,
+    /// Pressure at full speed where it exceeded the limit in this step, Pa.
+    exceeded: Option<f64>,
     /// Whether the stage releases the pressure.
     releases: bool,
 }
@@ -43,7 +56,8 @@ impl LoadControl {
             limit: programme.set_pressure(0.0),
             // A release has a limit of zero, which is no scale for a residual.
             min_scale: ITERATION_TOLERANCE * programme.largest(),
-            active: releases,
+            sets: if releases { Sets::Limit } else { Sets::Full },
+            exceeded: None,
             releases,
         }
     }
@@ -84,7 +98,8 @@ impl ClampDrive {
                 speeds: [clamp.closing_speed, 0.0],
                 limit,
                 min_scale: 0.0,
-                active: false,
+                sets: Sets::Full,
+                exceeded: None,
                 releases: false,
             }),
             _ => Control::Free,
@@ -98,59 +113,89 @@ impl ClampDrive {
         }
     }
 
-    /// Sets the pressure limit to that of the programme `ahead` (s) of now. Under an active limit the estimated speed
+    /// Begins a step: sets the pressure limit to that of the programme `ahead` (s) of now. Under a limit the estimated speed
     /// changes in proportion, as that of viscous flow does.
-    pub(super) fn set_limit_ahead(&mut self, ahead: f64) {
-        let (Some(programme), Control::Limit(control)) = (&self.programme, &mut self.control)
-        else {
+    pub(super) fn begin(&mut self, ahead: f64) {
+        let Control::Limit(control) = &mut self.control else {
+            return;
+        };
+        control.exceeded = None;
+        if control.sets == Sets::Least {
+            control.sets = Sets::Limit;
+        }
+        let Some(programme) = &self.programme else {
             return;
         };
         let limit = programme.set_pressure(ahead);
         let factor = limit / control.limit;
         control.limit = limit;
-        if control.active && factor > 0.0 && factor.is_finite() {
+        if control.sets == Sets::Limit && factor > 0.0 && factor.is_finite() {
             self.speed = (self.speed * factor).min(control.speeds[0]);
         }
     }
 
-    /// The load control if its limit is active, so that the speed is an unknown.
-    pub(super) fn active_load_control(&self) -> Option<LoadControl> {
+    /// The load control if the limit sets the speed.
+    pub(super) fn held(&self) -> Option<LoadControl> {
         match self.control {
-            Control::Limit(control) if control.active => Some(control),
+            Control::Limit(control) if control.sets == Sets::Limit => Some(control),
             _ => None,
         }
     }
 
-    /// Activates the limit if `pressure` (Pa) at full speed exceeds it, and estimates the speed at the limit. Returns the load
-    /// control if it did.
-    pub(super) fn activate_if_exceeded(&mut self, pressure: f64) -> Option<LoadControl> {
-        let Control::Limit(control) = &mut self.control else {
-            return None;
-        };
-        if control.active || pressure <= control.limit + CONTROLLED * control.scale() {
-            return None;
-        }
-        control.active = true;
-        self.speed *= control.limit / pressure;
-        Some(*control)
-    }
-
-    /// Sets the speed to the nearest that the clamp can have to `speed` (m/s), that of the limit; returns whether they are
-    /// equal. Its bounds are the full speed, at which the limit becomes inactive, and zero without a programme: compressed
-    /// liquid does not open the clamp.
-    pub(super) fn accept_speed(&mut self, speed: f64) -> bool {
+    /// Whether a `pressure` (Pa) and a `speed` (m/s) found agree with what sets the speed. If not, the other bound sets it, and
+    /// the speed is estimated. The bounds of the speed are the full one and zero without a programme: compressed liquid does
+    /// not open the clamp.
+    pub(super) fn agrees(&mut self, pressure: f64, speed: f64) -> bool {
         let Control::Limit(control) = &mut self.control else {
             return true;
         };
         let [full, least] = control.speeds;
-        control.active = speed < full;
-        self.speed = speed.clamp(least, full);
-        self.speed == speed
+        match control.sets {
+            Sets::Full if pressure > control.limit + CONTROLLED * control.scale() => {
+                control.exceeded.get_or_insert(pressure);
+                control.sets = Sets::Limit;
+                self.speed *= control.limit / pressure;
+            }
+            Sets::Limit if speed >= full => (control.sets, self.speed) = (Sets::Full, full),
+            Sets::Limit if speed < least => (control.sets, self.speed) = (Sets::Least, least),
+            Sets::Limit => {
+                self.speed = speed;
+                return true;
+            }
+            Sets::Full | Sets::Least => return true,
+        }
+        false
     }
 
-    /// Updates the control by the `pressure` (Pa) of a completed step of `dt` (s), after which the clamp has travelled
-    /// `travel` (m).
-    pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
+    /// The limit and the pressure at full speed, Pa, of a step that began at full speed and had the `pressure` found.
+    pub(super) fn at_full_speed(&self, pressure: f64) -> Option<[f64; 2]> {
+        match self.control {
+            Control::Limit(control) if control.limit.is_finite() && !control.releases => {
+                match (control.sets, control.exceeded) {
+                    (_, Some(exceeded)) => Some([control.limit, exceeded]),
+                    (Sets::Full, None) => Some([control.limit, pressure]),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// Change of the pressure from the middle of a step of `dt` (s) to its end where the control sets it, Pa.
+    pub(super) fn change_to_end(&self, dt: f64) -> Option<f64> {
+        match (&self.control, &self.programme) {
+            (Control::Limit(control), Some(programme)) if control.sets == Sets::Limit => {
+                Some(programme.set_pressure(dt) - control.limit)
+            }
+            (Control::Limit(control), None) if control.sets == Sets::Limit => Some(0.0),
+            (Control::Pid(_), _) => Some(0.0),
+            _ => None,
+        }
+    }
+
+    /// Updates the control by the `pressure` (Pa) at the end of a step of `dt` (s), after which the clamp has travelled
+    /// `travel` (m). Returns whether a stage of the programme ended.
+    pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) -> bool {
         let bounds = match &self.control {
             // A release has no limit to exceed: expanding air keeps pressing on a retreating body.
             Control::Limit(control) if control.releases => None,
@@ -179,10 +224,13 @@ impl ClampDrive {
                 let before = *control;
                 *control = LoadControl::of(programme);
                 let kind = programme.stage().kind;
-                if !next || before.active && kind != Press::Approach && before.limit > 0.0 {
+                let held = before.sets != Sets::Full;
+                if !next || held && kind != Press::Approach && before.limit > 0.0 {
                     // The speed and the limit of the last step are the estimate for the next.
-                    (control.active, control.limit) =
-                        (before.active || control.active, before.limit);
+                    if held {
+                        control.sets = before.sets;
+                    }
+                    control.limit = before.limit;
                     self.speed = self.speed.min(control.speeds[0]);
                 } else {
                     self.speed = match kind {
@@ -190,9 +238,11 @@ impl ClampDrive {
                         _ => control.speeds[0],
                     };
                 }
+                return next;
             }
             _ => {}
         }
+        false
     }
 
     /// The state for checkpoints.
@@ -204,7 +254,11 @@ impl ClampDrive {
             }
             _ => [0.0; 3],
         };
-        let active = f64::from(u8::from(self.active_load_control().is_some()));
+        let held = match self.control {
+            Control::Limit(control) => control.sets != Sets::Full,
+            _ => false,
+        };
+        let active = f64::from(u8::from(held));
         let (steps, pressure) = (self.violations.0 as f64, self.violations.1);
         [
             self.speed, active, steps, pressure, control[0], control[1], control[2],
@@ -221,7 +275,10 @@ impl ClampDrive {
                     *control = LoadControl::of(programme);
                     control.limit = a;
                 }
-                control.active = was_active != 0.0;
+                control.sets = match was_active {
+                    0.0 => Sets::Full,
+                    _ => Sets::Limit,
+                };
             }
             (Control::Free, _) => {}
         }

@@ -5,6 +5,7 @@ use physics::Water;
 
 use super::Implicit;
 use super::water::WaterBalance;
+use crate::geometry::Mesh;
 use crate::liquid::TRACE;
 use crate::water::{AbsorbingWalls, Node, solve};
 
@@ -64,6 +65,7 @@ impl Implicit {
     pub(super) fn exchange(
         &self,
         dt: f64,
+        mesh: &Mesh,
         fractions: &[f64],
     ) -> Result<Option<WaterExchange>, String> {
         let (Some(water), Some(walls), Some(balance)) = (
@@ -73,7 +75,7 @@ impl Implicit {
         ) else {
             return Ok(None);
         };
-        let nodes = self.nodes(dt, fractions, (water, walls, balance));
+        let nodes = self.nodes(dt, (mesh, fractions), (water, walls, balance));
         let solved = solve(&nodes, water.least()).ok_or(
             "no balance of the water was found: a smaller uptake, a larger diffusivity or a flatter \
              viscosity_by_solids is needed",
@@ -86,10 +88,10 @@ impl Implicit {
     fn nodes(
         &self,
         dt: f64,
-        fractions: &[f64],
+        (mesh, fractions): (&Mesh, &[f64]),
         (water, walls, balance): (&Water, &AbsorbingWalls, &WaterBalance),
     ) -> Vec<Node> {
-        let (mesh, h) = (&self.mesh, self.setup.units.cell_m);
+        let h = self.setup.units.cell_m;
         // Capacity and uptake of walls per area, cells; and the conductance between whole cells.
         let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
         let (uptake, diffusion) = (dt * water.uptake() / h, dt * water.diffusivity() / (h * h));

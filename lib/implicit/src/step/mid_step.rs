@@ -5,18 +5,20 @@ use std::time::Instant;
 use super::Implicit;
 use super::exchange::WaterExchange;
 use crate::clock::Stage;
+use crate::geometry::Mesh;
 use crate::liquid::transport;
-use crate::system::{FULL, Flow, masses};
+use crate::system::{FULL, Flow, WallCouplings, masses};
 
-/// Accepted excess over the free volume of voids, as a share of all flow into voids. Steps in wood with many lumens stay
-/// below it and are solved once; results hardly depend on it up to 0.1.
-const MAX_OVERFILL: f64 = 0.03;
-
-/// State in the middle of a step, shared by all solves from it.
+/// The state at a time within a step, from which its flow is solved.
+#[derive(Clone)]
 pub(super) struct MidStep {
+    /// Length of the step, s, and the part of it after which this is the state: a half, or none.
     pub(super) dt: f64,
-    /// Closing speed that sets the gap's height, cells/s, and the height of the gap at the end of the step by it, cells.
-    pub(super) closing_speed: f64,
+    pub(super) part: f64,
+    /// The mesh and the wall couplings at the height of the gap then.
+    pub(super) mesh: Mesh,
+    pub(super) couplings: WallCouplings,
+    /// Height of the gap at the end of the step, cells.
     pub(super) end_height: f64,
     /// Which pores are full at the start of the step, or count so.
     pub(super) full: Vec<bool>,
@@ -39,106 +41,99 @@ impl MidStep {
     }
 }
 
+/// A void: connected pores that are not full, in a step.
+pub(super) struct Void {
+    pub(super) pores: Vec<u32>,
+    /// Volume that flows in per time, cells/s, and free volume at the end of the step, cells; infinite where the void goes on
+    /// beyond the active cells.
+    pub(super) inflow: f64,
+    pub(super) free: f64,
+}
+
 impl Implicit {
-    /// Moves the rows and the liquid to the middle of a step of `dt` (s): by `flow`, or by the last step's flow and the
-    /// drive's speed. Voids that `flow` would fill count as full, as do pores that were full `before`, in an earlier
-    /// estimate of the middle.
-    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>, before: &[bool]) -> MidStep {
-        let asked = self.state.drive.speed / self.setup.units.cell_m;
-        let closing = flow.map_or(asked, |flow| flow.speed);
-        let mut full: Vec<bool> = (self.state.volumes.iter().enumerate())
-            .map(|(pore, volume)| *volume >= FULL * self.mesh.volume_at(pore, self.height))
-            .collect();
-        for (full, before) in full.iter_mut().zip(before) {
-            *full |= before;
-        }
-        let closes = self.setup.lattice.moving.is_some();
-        if closes {
-            self.mesh.set_height(self.middle_height(dt, closing));
-        }
-        let end = self.end_height(dt, closing);
-        if let Some(flow) = flow {
-            self.fill_voids(dt, end, &mut full, flow);
-        }
-        let fractions = self.mid_fractions(dt, &full, flow);
+    /// The state a `part` into a step of `dt` (s): liquid moved by `flow` from the start of the step, the gap closed at its
+    /// speed. `full` pores count as full.
+    ///
+    /// # Errors
+    /// Where no balance of the water is found.
+    pub(super) fn middle(
+        &self,
+        (dt, part): (f64, f64),
+        flow: &Flow,
+        full: Vec<bool>,
+    ) -> Result<MidStep, String> {
         let begun = Instant::now();
-        if closes {
-            let channels = self.setup.channels(&self.mesh);
-            self.couplings.measure(&channels, &fractions);
-        }
+        let end_height = self.end_height(dt, flow.speed);
+        // The flow of a film goes with a power of its height: the geometric mean has its mean flow.
+        let height = match part {
+            0.0 => self.height(),
+            _ => (self.height() * end_height).sqrt().max(0.25 * self.height()),
+        };
+        let mesh = self.mesh.at_height(height);
+        self.clock.add(Stage::Geometry, begun);
+        let fractions = self.moved_fractions(part * dt, &mesh, &full, flow);
+        let begun = Instant::now();
+        let couplings = self.setup.channels(&mesh);
+        let couplings = self.couplings.at_height(&couplings, &fractions);
         self.clock.add(Stage::Geometry, begun);
         let begun = Instant::now();
-        let masses = masses(&self.mesh, &fractions);
+        let masses = masses(&mesh, &fractions);
         self.clock.add(Stage::Assembly, begun);
+        let begun = Instant::now();
+        let water_loss = self.exchange(dt, &mesh, &fractions)?;
+        if water_loss.is_some() {
+            self.clock.add(Stage::Water, begun);
+        }
         let cure = self.setup.liquid.cure.as_ref();
-        MidStep {
+        Ok(MidStep {
             dt,
-            closing_speed: closing,
-            end_height: end,
+            part,
+            mesh,
+            couplings,
+            end_height,
             full,
             fractions,
             masses,
-            viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
-            water_loss: None,
-        }
+            viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + part * dt)),
+            water_loss,
+        })
     }
 
-    /// Solves the water balance for a `middle` of the step.
-    pub(super) fn find_water_loss(&mut self, middle: &mut MidStep) -> Result<(), String> {
-        let begun = Instant::now();
-        middle.water_loss = self.exchange(middle.dt, &middle.fractions)?;
-        if middle.water_loss.is_some() {
-            self.clock.add(Stage::Water, begun);
-        }
-        Ok(())
+    /// Which pores are full between steps.
+    pub(super) fn full_pores(&self) -> Vec<bool> {
+        let pores = self.state.volumes.iter().enumerate();
+        pores
+            .map(|(pore, volume)| *volume >= FULL * self.mesh.volume(pore))
+            .collect()
     }
 
-    /// Marks as `full` the pores of each void (connected pores that are not full) that `flow`, found for a step of `dt` (s),
-    /// would overfill. Their volume balance then admits no more than their free volume at the gap's height `end`; the excess
-    /// would have to leave in later steps, under a spurious pressure. Returns the excess over all flow into voids. `flow`
-    /// must be that of this step: a void marked full by another flow might have to be filled by suction.
-    fn fill_voids(&self, dt: f64, end: f64, full: &mut [bool], flow: &Flow) -> f64 {
-        // With air, voids are pockets with a pressure and do not overfill.
-        if self.setup.gas.is_some() {
-            return 0.0;
-        }
-        let (mesh, volumes) = (&self.mesh, &self.state.volumes);
-        let (mut excess, mut all) = (0.0, f64::MIN_POSITIVE);
-        for void in mesh.components(|pore| !full[pore]) {
+    /// The voids between `full` pores, filled by `flow` through the faces of `mesh` until the gap has the height `end`.
+    pub(super) fn voids(&self, mesh: &Mesh, full: &[bool], flow: &Flow, end: f64) -> Vec<Void> {
+        let void = |pores: Vec<u32>| {
             let (mut inflow, mut free) = (0.0, 0.0);
-            for pore in void.iter().map(|&pore| pore as usize) {
-                free += self.capacity(pore, end) - volumes[pore];
-                for neighbour in mesh
-                    .neighbours(pore)
-                    .filter(|neighbour| full[neighbour.pore])
-                {
-                    inflow -= neighbour.sign()
-                        * mesh.area(neighbour.face)
-                        * flow.velocity[neighbour.face]
-                        * dt;
+            for pore in pores.iter().map(|&pore| pore as usize) {
+                free += self.capacity(pore, end) - self.state.volumes[pore];
+                for neighbour in mesh.neighbours(pore).filter(|beside| full[beside.pore]) {
+                    let face = neighbour.face;
+                    inflow -= neighbour.sign() * mesh.area(face) * flow.velocity[face];
                 }
             }
-            all += inflow.max(0.0);
-            // A void that goes on beyond the active cells has more room than they show.
-            if inflow > free && !mesh.is_cut(&void) {
-                excess += inflow - free;
-                void.iter().for_each(|&pore| full[pore as usize] = true);
-            }
-        }
-        excess / all
+            let free = if mesh.is_cut(&pores) { f64::INFINITY } else { free };
+            Void { pores, inflow, free }
+        };
+        let voids = mesh.components(|pore| !full[pore]).into_iter();
+        voids.map(void).collect()
     }
 
-    /// Volume fractions in the middle of a step of `dt` (s), by `flow` or that of the last step. `full` says which pores are
-    /// full at the start.
-    fn mid_fractions(&mut self, dt: f64, full: &[bool], flow: Option<&Flow>) -> Vec<f64> {
+    /// Volume fractions after liquid between `full` pores has moved for `dt` (s) by `flow`, on a `mesh` as it is then.
+    fn moved_fractions(&self, dt: f64, mesh: &Mesh, full: &[bool], flow: &Flow) -> Vec<f64> {
         let begun = Instant::now();
-        let (state, mesh) = (&self.state, &self.mesh);
-        let velocity = &flow.unwrap_or(&state.flow).velocity;
-        let moved = match state.steps {
-            0 => state.volumes.clone(),
+        let moved = match dt {
+            0.0 => self.state.volumes.clone(),
             _ => {
-                let liquid = [&state.volumes[..], &[]];
-                transport(mesh, liquid, full, &self.capacities(), velocity, 0.5 * dt).volumes
+                let liquid = [&self.state.volumes[..], &[]];
+                let capacities = self.capacities(mesh.rows().height);
+                transport(mesh, liquid, full, &capacities, &flow.velocity, dt).volumes
             }
         };
         self.clock.add(Stage::Transport, begun);
@@ -150,19 +145,21 @@ impl Implicit {
         moved.into_iter().enumerate().map(fraction).collect()
     }
 
-    /// Height of the gap in the middle of a step of `dt` (s) at a `closing` speed (cells/s), cells.
-    pub(super) fn middle_height(&self, dt: f64, closing: f64) -> f64 {
-        0.5 * (self.height + self.end_height(dt, closing))
+    /// Height of the gap between steps, cells.
+    pub(super) fn height(&self) -> f64 {
+        self.mesh.rows().height
     }
 
-    /// Height of the gap at the end of the step, cells.
-    fn end_height(&self, dt: f64, closing: f64) -> f64 {
-        (self.height - dt * closing).max(0.0)
+    /// Height of the gap at the end of a step of `dt` (s) at a `closing` speed (cells/s), cells.
+    pub(super) fn end_height(&self, dt: f64, closing: f64) -> f64 {
+        match self.setup.lattice.moving {
+            Some(_) => (self.height() - dt * closing).max(0.0),
+            None => self.height(),
+        }
     }
 
-    /// Volume of each pore at the mesh's current gap height; infinite for ghost cells.
-    pub(super) fn capacities(&self) -> Vec<f64> {
-        let height = self.mesh.rows().height;
+    /// Volume of each pore at a height of the gap; infinite for ghost cells.
+    pub(super) fn capacities(&self, height: f64) -> Vec<f64> {
         let pores = 0..self.mesh.pores.len();
         pores.map(|pore| self.capacity(pore, height)).collect()
     }
@@ -173,11 +170,5 @@ impl Implicit {
             true => f64::INFINITY,
             false => self.mesh.volume_at(pore, height),
         }
-    }
-
-    /// Whether a flow that was solved from `middle` overfills voids.
-    pub(super) fn overfills(&self, middle: &MidStep, flow: &Flow) -> bool {
-        let end = self.end_height(middle.dt, flow.speed);
-        self.fill_voids(middle.dt, end, &mut middle.full.clone(), flow) > MAX_OVERFILL
     }
 }

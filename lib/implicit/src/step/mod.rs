@@ -1,18 +1,18 @@
 //! The scheme and the order of a step (docs/methods.md section 3.1).
 
 mod air;
-mod clamp;
 mod completion;
 mod compression;
 mod drive;
 mod exchange;
 mod failure;
+mod length;
 mod mid_step;
 mod output;
 mod remesh;
 mod scheme;
 mod setup;
-mod solve;
+mod trial;
 mod water;
 
 use std::time::Instant;
@@ -26,35 +26,28 @@ use crate::settings::Settings;
 use crate::system::{Edges, Flow, REST_DISTANCE, WallCouplings};
 use crate::water::AbsorbingWalls;
 use air::AirState;
-use completion::courant_speed;
 use drive::ClampDrive;
 use setup::Setup;
+use trial::Solved;
 use water::WaterBalance;
 
 /// Bound on the attempts at a step; the second nearly always has an acceptable length.
 const MAX_ATTEMPTS: usize = 8;
-/// Factor by which a step may exceed the Courant number, and the part of that number which the next attempt aims at: so few
-/// steps are solved twice.
-const CFL_EXCESS: f64 = 1.1;
-const CFL_TARGET: f64 = 0.95;
+/// Largest pressure in a pore over the bulk modulus: beyond, a liquid is no liquid.
+const MOST_COMPRESSION: f64 = 0.2;
 /// Largest change of ln(viscosity) in a step by cure, and the target by loss of water: 1/viscosity in the middle of the step
 /// then differs from its mean by 0.17 %.
 pub(crate) const LN_VISCOSITY_STEP: f64 = 0.2;
-/// Largest ratio of successive step lengths with menisci. A pinned meniscus breaks loose from rest, where no speed bounds the
-/// step, and steps that grow at once do not settle to rest (docs/decisions/menisci.md).
-const MAX_LENGTH_RATIO: f64 = 2.0;
-
 /// The implicit scheme on a scene.
 pub struct Implicit {
     setup: Setup,
     state: State,
     mesh: Mesh,
+    /// Wall couplings of the mesh; those that depend on the height of the gap belong to each trial.
     couplings: WallCouplings,
     edges: Edges,
     /// Absorbing walls of the mesh.
     absorbing_walls: Option<AbsorbingWalls>,
-    /// Height of the gap between steps, cells. During a step the mesh has the height of its middle.
-    height: f64,
     solver: SaddleSolver,
     clock: Clock,
 }
@@ -78,12 +71,37 @@ struct State {
     /// Flow speed of the last step for the Courant number, cells/s, and its expected growth to the next step, a factor.
     courant_speed: f64,
     growth: f64,
+    /// Pressures in the middle of the last step; `None` where the next step does not continue it.
+    reference: Option<Reference>,
     /// Liquid volume that left the domain, cells.
     lost: f64,
     /// Steps whose iterations did not converge.
     unsettled: u64,
     /// The water balance of a liquid that loses water.
     water: Option<WaterBalance>,
+}
+
+/// Pressures on bodies, Pa: the lower one, the upper one, the moving one.
+type Pressures = [f64; 3];
+
+/// Pressures at a time, s from the start of a step.
+#[derive(Clone, Copy, Debug)]
+struct Reference {
+    time: f64,
+    pressures: Pressures,
+}
+
+impl Reference {
+    /// The pressures at another `time`, on a line through these and those `at` a time.
+    fn extrapolated(&self, (at, pressures): (f64, Pressures), time: f64) -> Pressures {
+        let ahead = (time - at) / (at - self.time);
+        std::array::from_fn(|i| {
+            let [before, now] = [self.pressures[i], pressures[i]];
+            let change = ahead * (now - before);
+            // A pressure that jumps says nothing of its slope.
+            now + change.clamp(-0.5 * now.abs(), 0.5 * now.abs())
+        })
+    }
 }
 
 impl Implicit {
@@ -120,7 +138,6 @@ impl Implicit {
                 ..SaddleOptions::default()
             }),
             clock: Clock::default(),
-            height: mesh.rows().height,
             edges: Edges::default(),
             absorbing_walls: None,
             setup,
@@ -132,11 +149,11 @@ impl Implicit {
         Ok(scheme)
     }
 
-    /// Takes one step: remeshes, then solves with shorter and shorter lengths until one is acceptable, and completes it.
+    /// Takes one step: remeshes, finds the flow of a step of acceptable length, and completes it.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         let programme = self.state.drive.programme.as_ref();
         let limit = programme.map_or(limit, |run| run.within(limit, self.state.travel));
-        if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
+        if self.setup.lattice.moving.is_some() && self.height() == 0.0 && self.state.drive.speed > 0.0
         {
             // A body of given velocity may overlap another by a fiftieth of a cell at the end (docs/verdicts.md), and the step that
             // ends its travel may do so earlier by a hundredth.
@@ -149,77 +166,96 @@ impl Implicit {
         let begun = Instant::now();
         self.update_mesh();
         self.clock.add(Stage::Geometry, begun);
-        let (mut longest, mut dries) = (limit.time_s, false);
-        let mut start = self.state.flow.clone();
-        for attempt in 0..MAX_ATTEMPTS {
-            let dt = self.step_length(limit).min(longest);
-            if !(dt > 0.0 && dt.is_finite()) {
-                return Err(self.failure("nothing moves, so no time step can be chosen"));
-            }
-            let solved = self
-                .solve(dt, limit, longest, &mut start)
-                .map_err(|why| self.failure(&why))?;
-            let shorter = solved.dries_too_fast();
-            dries = shorter.is_some();
-            if let Some(shorter) = shorter {
-                longest = shorter;
-                continue;
-            }
-            let flow = &solved.flow;
-            let speed = courant_speed(flow, self.setup.settings.cfl).max(flow.speed.abs());
-            let crossed = speed * solved.dt;
-            if crossed <= CFL_EXCESS * self.setup.settings.cfl {
-                return Ok(self.complete_step(solved, limit));
-            }
-            longest = CFL_TARGET * solved.dt * self.setup.settings.cfl / crossed;
-            // A pocket without air collapses by the same volume whatever the length, so the speed grows as the step shrinks.
-            if attempt > 0 && self.setup.gas.is_some() {
-                longest = longest.min(0.5 * solved.dt);
-            }
+        let solved = self.find_step(limit)?;
+        Ok(self.complete_step(solved, limit))
+    }
+
+    /// Solves steps of different lengths until one is acceptable.
+    fn find_step(&self, limit: StepLimit) -> Result<Solved, Failure> {
+        let mut dt = self.step_length(limit);
+        let fail = |why: String| self.failure(&why);
+        self.check_length(dt)?;
+        let start = self.start_of_step(dt).map_err(fail)?;
+        let (ahead, drive) = match &start {
+            Some(start) => (&start.flow, &start.trial.drive),
+            None => (&self.state.flow, &self.state.drive),
+        };
+        let reference = match &start {
+            Some(start) => Some(Reference {
+                time: 0.0,
+                pressures: self.pressures(&start.flow, &start.forces),
+            }),
+            None => self.state.reference,
+        };
+        let (mut guess, mut before, mut dries) = (ahead.clone(), None, false);
+        for _ in 0..MAX_ATTEMPTS {
+            let mut solved = self
+                .solve((dt, 0.5), drive.clone(), ahead, guess)
+                .map_err(fail)?;
+            solved.reference = reference;
+            dries = solved.dries_too_fast().is_some();
+            let Some(length) = self.better_length(&mut solved, limit, &mut before) else {
+                self.check_pressure(&solved.flow)?;
+                return Ok(solved);
+            };
+            dt = length;
+            self.check_length(dt)?;
+            guess = solved.flow;
         }
         Err(self.no_acceptable_length(dries))
     }
 
-    /// Time in which the flow of the last step, times its expected growth, crosses a cell, s.
-    fn cell_crossing_time(&self) -> f64 {
-        let courant_speed = self.state.courant_speed.max(self.state.flow.speed.abs());
-        1.0 / (self.state.growth * courant_speed)
+    fn check_length(&self, dt: f64) -> Result<(), Failure> {
+        match dt > 0.0 && dt.is_finite() {
+            true => Ok(()),
+            false => Err(self.failure("nothing moves, so no time step can be chosen")),
+        }
     }
 
-    /// Length of the next step by the flow of the last one, s.
-    fn step_length(&self, limit: StepLimit) -> f64 {
-        let (state, liquid, units) = (&self.state, &self.setup.liquid, self.setup.units);
-        let cfl = self.setup.settings.cfl;
-        let mut dt = (cfl * self.cell_crossing_time()).min(limit.time_s);
-        // A step has the viscosity of its middle, so cure must not change it much.
-        if let Some(cure) = &liquid.cure {
-            dt = dt.min(cure.steady(state.time, LN_VISCOSITY_STEP));
+    /// Refuses a flow whose pressure anywhere is beyond the range of the liquid's law.
+    fn check_pressure(&self, flow: &Flow) -> Result<(), Failure> {
+        let most = flow.pressure.iter().fold(0.0_f64, |most, p| most.max(*p));
+        let (most, bulk_modulus) = (most * self.setup.units.viscosity, self.setup.liquid.tait.bulk_modulus);
+        match most <= MOST_COMPRESSION * bulk_modulus {
+            true => Ok(()),
+            false => Err(self.failure(&format!(
+                "the pressure reaches {most:.3e} Pa in a pore, above {MOST_COMPRESSION} of the bulk modulus: a max_pressure, a lower \
+                 closing_speed or an earlier end is needed"
+            ))),
         }
-        if let Some(balance) = &state.water {
-            dt = dt.min(balance.steady_time());
+    }
+
+    /// The flow at the start of a step of `dt` (s), where the last step does not tell it.
+    fn start_of_step(&self, dt: f64) -> Result<Option<Solved>, String> {
+        if self.state.reference.is_some() {
+            return Ok(None);
         }
-        // The first step starts from rest, where weight sets the speed.
-        if state.steps == 0 {
-            dt = dt.min((2.0 * cfl / self.setup.gravity_acceleration()).sqrt());
-        }
-        // A clamp that starts to retreat, in a stage that begins below the pressure reached, is bounded by its full speed only: with
-        // air behind it no earlier step tells the speed.
-        let retreating = (state.drive.programme.as_ref()).filter(|run| run.gives_way());
-        if let Some(run) = retreating {
-            dt = dt.min(cfl * units.cell_m / run.stage().speed);
-        }
-        // The first step is bounded by the capillary speed, tension over viscosity. Later ones may grow by a factor only, since
-        // contact-line friction is evaluated at the velocity of the step before.
-        if let Some(wetting) = liquid.wetting {
-            dt = dt.min(match state.steps {
-                0 => units.cell_m * units.viscosity / wetting.tension,
-                _ => MAX_LENGTH_RATIO * state.dt,
-            });
-        }
-        match self.travel_left(limit) {
-            left if left > 0.0 => dt.min(left / state.flow.speed.max(f64::MIN_POSITIVE)),
-            // The clamp has reached the end of its travel.
-            _ => dt,
-        }
+        let (drive, flow) = (self.state.drive.clone(), &self.state.flow);
+        self.solve((dt, 0.0), drive, flow, flow.clone()).map(Some)
+    }
+
+    /// Pressures on the bodies between steps.
+    fn pressures_now(&self) -> Result<Pressures, String> {
+        let (drive, flow) = (self.state.drive.clone(), &self.state.flow);
+        let solved = self.solve((self.state.dt, 0.0), drive, flow, flow.clone())?;
+        Ok(self.pressures(&solved.flow, &solved.forces))
+    }
+
+    /// Pressures on the bodies.
+    fn pressures(&self, flow: &Flow, forces: &[f64]) -> Pressures {
+        let pressure = |body: Option<usize>, sign: f64| {
+            body.map_or(0.0, |body| {
+                let force = match self.setup.lattice.body_speed(body) {
+                    0.0 => sign * forces[body],
+                    speed => -sign * speed * flow.force,
+                };
+                self.setup.pressure(force)
+            })
+        };
+        [
+            pressure(self.setup.bottom, -1.0),
+            pressure(self.setup.top, 1.0),
+            self.setup.pressure(flow.force),
+        ]
     }
 }

@@ -5,22 +5,19 @@ use rayon::prelude::*;
 
 use super::Implicit;
 use crate::liquid::TRACE;
-use crate::system::{FlowField, Profile};
+use crate::system::Profile;
 
 impl Implicit {
     /// The material points of the liquid.
     pub(super) fn points(&self) -> LiquidState {
         let (mut state, shown) = self.filled_voxels();
         // Wall couplings at the current gap height; those at hand belong to the middle of the last step.
-        let mut couplings = self.couplings.clone();
         let fractions: Vec<f64> = (self.state.volumes.iter().enumerate())
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
             .collect();
-        couplings.measure(&self.setup.channels(&self.mesh), &fractions);
-        let field = FlowField {
-            couplings: &couplings,
-            ..self.field(&self.state.flow)
-        };
+        let channels = self.setup.channels(&self.mesh);
+        let couplings = self.couplings.at_height(&channels, &fractions);
+        let field = self.field((&self.mesh, &couplings), &self.state.flow);
         let (rates, _) = field.pore_rates(self.setup.liquid.shear_rate);
         let pascal = self.setup.units.viscosity;
         for &pore in &shown {

@@ -16,9 +16,8 @@ pub(super) const MARGIN: usize = 2 * (LARGEST_CFL as usize + 1);
 impl Implicit {
     /// Builds the mesh anew if the number of gap rows changes or the liquid is close to the edge of the active cells.
     pub(super) fn update_mesh(&mut self) {
-        self.mesh.set_height(self.height);
         let mesh = &self.mesh;
-        let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height);
+        let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height());
         let wet = mesh.cells_with(|pore| self.state.volumes[pore] > 0.0);
         let wet_rows = self.wet_rows();
         let is_close =

@@ -5,7 +5,7 @@ use physics::{
     StepLimit, StepReport, restored,
 };
 
-use super::Implicit;
+use super::{Implicit, Reference};
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::FaceMap;
 
@@ -17,10 +17,15 @@ impl Scheme for Implicit {
         self.step(limit)
     }
 
+    fn end_pressures(&self) -> Result<Option<[f64; 2]>, Failure> {
+        let [lower, upper, _] = self.pressures_now().map_err(|why| self.failure(&why))?;
+        Ok(Some([lower, upper]))
+    }
+
     fn diagnostics(&self) -> Diagnostics {
         let (mesh, units) = (&self.mesh, self.setup.units);
         let (mut volume, mut energy) = (0.0, 0.0);
-        let flow = self.field(&self.state.flow);
+        let flow = self.field((&self.mesh, &self.couplings), &self.state.flow);
         for pore in 0..mesh.pores.len() {
             let amount = self.state.volumes[pore];
             if amount > 0.0 {
@@ -58,7 +63,7 @@ impl Scheme for Implicit {
     fn saving(&self) -> Vec<(String, Saving<'_>)> {
         let state = &self.state;
         let mut scalars = vec![
-            self.height,
+            self.height(),
             state.travel,
             state.time,
             state.steps as f64,
@@ -72,6 +77,9 @@ impl Scheme for Implicit {
             state.dt,
         ];
         scalars.extend(state.drive.state());
+        let reference = state.reference.map(|reference| reference.pressures);
+        scalars.push(f64::from(u8::from(reference.is_some())));
+        scalars.extend(reference.unwrap_or_default());
         let rows = [
             self.mesh.rows().gap,
             self.mesh.range.start,
@@ -119,7 +127,12 @@ impl Scheme for Implicit {
         else {
             return Err("the checkpoint's scalars are not those of this scheme".into());
         };
-        let Ok(drive) = <[f64; 7]>::try_from(drive) else {
+        let Some((drive, &[continues, ref pressures @ ..])) = drive.split_at_checked(7) else {
+            return Err("the checkpoint's clamp state is not that of this scheme".into());
+        };
+        let (Ok(drive), Ok(pressures)) =
+            (<[f64; 7]>::try_from(drive), <[f64; 3]>::try_from(pressures))
+        else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
         if [
@@ -175,8 +188,12 @@ impl Scheme for Implicit {
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.flow.dissipation = dissipation;
+        state.reference = (continues != 0.0).then_some(Reference {
+            time: -0.5 * dt,
+            pressures,
+        });
         state.displacement = displacement;
-        (self.mesh, self.height) = (mesh, height);
+        self.mesh = mesh;
         self.rebuild_walls(&FaceMap::default());
         Ok(())
     }

@@ -4,7 +4,7 @@ use physics::{Array, Saved, WaterState};
 
 use super::exchange::WaterExchange;
 use super::setup::Setup;
-use super::solve::Solved;
+use super::trial::Solved;
 use super::{Implicit, LN_VISCOSITY_STEP};
 use crate::geometry::DRIFT;
 
@@ -57,9 +57,10 @@ impl WaterBalance {
 impl Solved {
     /// If the liquid dries too fast in this step: the length to repeat it with, s.
     pub(super) fn dries_too_fast(&self) -> Option<f64> {
-        let change = self.exchange.as_ref()?.change;
+        let middle = &self.trial.middle;
+        let change = middle.water_loss.as_ref()?.change;
         // A tolerance of one half on the target, so that few steps are repeated.
-        (change > 1.5 * LN_VISCOSITY_STEP).then(|| self.dt * LN_VISCOSITY_STEP / change)
+        (change > 1.5 * LN_VISCOSITY_STEP).then(|| middle.dt * LN_VISCOSITY_STEP / change)
     }
 }
 

@@ -1,5 +1,7 @@
 //! Viscous coupling of one face to its walls.
 
+use std::num::NonZeroU32;
+
 /// Viscous coupling of a face to its walls, per viscosity, for its low and its high half. Stored in single precision.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WallCoupling<T = f64> {
@@ -14,8 +16,8 @@ pub(crate) struct WallCoupling<T = f64> {
     pub(crate) height: T,
     /// Sum of 1/H^2 over the two tangential axes, H the channel width.
     pub(crate) inverse_width_squared: T,
-    /// Whether the coupling depends on the height of the gap.
-    pub(crate) depends_on_gap: bool,
+    /// Number plus one among the couplings that depend on the height of the gap; `None` for others.
+    pub(super) of_gap: Option<NonZeroU32>,
     /// Whether the face has walls.
     pub(super) walled: bool,
     /// Code of a body whose wall acts on the face; the last one found if there are several.
@@ -42,7 +44,7 @@ impl<T: Copy> WallCoupling<T> {
             area: of(self.area),
             height: of(self.height),
             inverse_width_squared: of(self.inverse_width_squared),
-            depends_on_gap: self.depends_on_gap,
+            of_gap: self.of_gap,
             walled: self.walled,
             body: self.body,
         }

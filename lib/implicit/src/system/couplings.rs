@@ -1,5 +1,8 @@
 //! Wall friction: the viscous coupling of every face to its walls (docs/methods.md section 3.5).
 
+use std::num::NonZeroU32;
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, VoxelAddress, others};
@@ -7,71 +10,95 @@ use crate::liquid::FaceMap;
 
 use super::coupling::WallCoupling;
 
+/// Lower bound on the width of a channel, cells: a fifth of the gap at which a bond counts as closed.
+const MIN_WIDTH: f64 = 0.01;
 /// Lower bound on d_w over the open height, which keeps friction finite.
 const MIN_DISTANCE: f64 = 0.1;
 /// Lower bound on the effective width H over the least of H_t, H_a and 2 h1, for walls on both axes: that of a square duct two
 /// cells wide.
 const MIN_DUCT: f64 = 0.85;
 
-/// The wall couplings of all faces of a mesh.
+/// The wall couplings of all faces of a mesh at a height of the gap.
 #[derive(Clone, Default)]
-pub(crate) struct WallCouplings(Vec<WallCoupling<f32>>);
+pub(crate) struct WallCouplings {
+    /// One a face; a placeholder where it depends on the height of the gap.
+    fixed: Arc<Vec<WallCoupling<f32>>>,
+    /// Faces whose coupling depends on the height of the gap, and their couplings at one height.
+    gap_faces: Arc<Vec<u32>>,
+    of_gap: Vec<WallCoupling<f32>>,
+}
 
 impl WallCouplings {
     /// Whether none have been computed yet.
     pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.fixed.is_empty()
     }
 
     /// The coupling of a face.
     pub(crate) fn of(&self, face: usize) -> WallCoupling {
-        self.0[face].with(f64::from)
+        let fixed = &self.fixed[face];
+        let coupling = match fixed.of_gap {
+            Some(number) => self.of_gap.get(number.get() as usize - 1).unwrap_or(fixed),
+            None => fixed,
+        };
+        coupling.with(f64::from)
     }
 
-    /// The couplings of a mesh; faces that are unchanged by `face_map` keep their `old` ones.
+    /// The couplings of a mesh that do not depend on the height of its gap; faces that are unchanged by `face_map` keep their
+    /// `old` ones.
     pub(crate) fn new(channels: &Channels, face_map: &FaceMap, old: &Self) -> Self {
         let mesh = channels.mesh;
         let clear = mesh.wall_free_cells();
         let moving = channels.lattice.moving.is_some();
         let coupling = |face: usize| {
-            let old = face_map.unchanged(face).map(|face| old.0[face]);
-            if let Some(old) = old.filter(|coupling| !coupling.depends_on_gap) {
+            let old = face_map.unchanged(face).map(|face| old.fixed[face]);
+            if let Some(old) = old.filter(|coupling| coupling.of_gap.is_none()) {
                 return old;
             }
-            let (clear, depends_on_gap) = (
-                mesh.is_wall_free(face, &clear),
-                channels.depends_on_gap(face),
-            );
+            let clear = mesh.is_wall_free(face, &clear);
             match mesh.is_inner(face) {
                 false => WallCoupling::default(),
-                // `measure` computes it before use.
-                true if moving && depends_on_gap => WallCoupling {
-                    depends_on_gap,
+                true if moving && channels.depends_on_gap(face) => WallCoupling {
+                    of_gap: Some(NonZeroU32::MIN),
                     walled: !clear,
                     ..WallCoupling::default()
                 },
-                true => channels.coupling(face, clear, depends_on_gap),
+                true => channels.coupling(face, clear),
             }
         };
-        Self(
-            (0..mesh.faces.len())
-                .into_par_iter()
-                .map(coupling)
-                .collect(),
-        )
+        let mut fixed: Vec<WallCoupling<f32>> = (0..mesh.faces.len())
+            .into_par_iter()
+            .map(coupling)
+            .collect();
+        let mut gap_faces = Vec::new();
+        for (face, coupling) in fixed.iter_mut().enumerate() {
+            if coupling.of_gap.is_some() {
+                gap_faces.push(face as u32);
+                coupling.of_gap = NonZeroU32::new(gap_faces.len() as u32);
+            }
+        }
+        Self {
+            fixed: Arc::new(fixed),
+            gap_faces: Arc::new(gap_faces),
+            of_gap: Vec::new(),
+        }
     }
 
-    /// Recomputes the couplings that depend on the gap's height, of faces with liquid.
-    pub(crate) fn measure(&mut self, channels: &Channels, fractions: &[f64]) {
-        self.0
-            .par_iter_mut()
-            .enumerate()
-            .for_each(|(face, coupling)| {
-                let mut pores = channels.mesh.faces[face].pores().into_iter();
-                if coupling.depends_on_gap && pores.any(|pore| fractions[pore] > 0.0) {
-                    *coupling = channels.coupling(face, !coupling.walled, true);
-                }
-            });
+    /// These couplings at the height of the gap of the `channels`, of faces with liquid.
+    pub(crate) fn at_height(&self, channels: &Channels, fractions: &[f64]) -> Self {
+        let coupling = |&face: &u32| {
+            let face = face as usize;
+            let mut pores = channels.mesh.faces[face].pores().into_iter();
+            let fixed = self.fixed[face];
+            match pores.any(|pore| fractions[pore] > 0.0) {
+                true => channels.coupling(face, !fixed.walled),
+                false => fixed,
+            }
+        };
+        Self {
+            of_gap: self.gap_faces.par_iter().map(coupling).collect(),
+            ..self.clone()
+        }
     }
 }
 
@@ -99,11 +126,8 @@ impl Channels<'_> {
     }
 
     /// Computes the coupling of a face; `clear` says that it has no walls.
-    fn coupling(&self, face: usize, clear: bool, depends_on_gap: bool) -> WallCoupling<f32> {
-        let mut coupling = WallCoupling::<f64> {
-            depends_on_gap,
-            ..WallCoupling::default()
-        };
+    fn coupling(&self, face: usize, clear: bool) -> WallCoupling<f32> {
+        let mut coupling = WallCoupling::<f64>::default();
         let f = self.mesh.faces[face];
         let cell_indices = f
             .pores()
@@ -213,12 +237,12 @@ impl Channels<'_> {
         }
     }
 
-    /// Channel width along an axis at a voxel, cells; at least a quarter, so that a gap that closes has finite friction.
+    /// Channel width along an axis at a voxel, cells; above zero, so that a gap that closes has finite friction.
     fn width(&self, address: Option<VoxelAddress>, axis: usize) -> f64 {
         let k = self.mesh.k as f64;
         let gap = self.mesh.rows().height * k;
         let length = |address: VoxelAddress| self.chords.length(self.lattice, address, axis, gap);
-        (address.map_or(f64::INFINITY, length) / k).max(0.25)
+        (address.map_or(f64::INFINITY, length) / k).max(MIN_WIDTH)
     }
 
     /// Effective distance d_w of a column from its walls, which makes the flux of plane Poiseuille flow exact for every open

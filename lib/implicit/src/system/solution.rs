@@ -53,6 +53,14 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
+    /// The flow scaled to another closing speed, which it has then in any case.
+    pub(crate) fn at_speed(&self, speed: f64) -> Self {
+        let mut flow = self.clone();
+        flow.scale_to_speed(speed);
+        flow.speed = speed;
+        flow
+    }
+
     /// Scales the flow to another closing speed; does nothing unless the ratio of the speeds is positive and finite.
     pub(crate) fn scale_to_speed(&mut self, speed: f64) {
         let factor = speed / self.speed;

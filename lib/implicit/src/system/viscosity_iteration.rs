@@ -17,8 +17,7 @@ const EXPONENT_TOLERANCE: f64 = 0.05 * CONVERGED;
 const CONVERGED: f64 = 2e-3;
 
 /// The iteration on the viscosity field of a step.
-pub(crate) struct ViscosityIteration<'a> {
-    pub(crate) liquid: &'a Liquid,
+pub(crate) struct ViscosityIteration {
     /// Factor on the liquid's law.
     pub(crate) factor: f64,
     /// Influence length, cells.
@@ -30,11 +29,10 @@ pub(crate) struct ViscosityIteration<'a> {
     response: f64,
 }
 
-impl<'a> ViscosityIteration<'a> {
+impl ViscosityIteration {
     /// Starts with the viscosities `used`.
-    pub(crate) fn new(liquid: &'a Liquid, factor: f64, slip: f64, used: Viscosities) -> Self {
+    pub(crate) fn new(factor: f64, slip: f64, used: Viscosities) -> Self {
         Self {
-            liquid,
             factor,
             slip,
             used,
@@ -45,15 +43,15 @@ impl<'a> ViscosityIteration<'a> {
 
     /// Updates the viscosities by the `rates` and the dissipation (`power`) of each pore of the flow that was solved with
     /// them. Returns whether the iteration has converged.
-    pub(crate) fn update(&mut self, rates: Rates, power: Vec<f64>) -> bool {
-        let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
+    pub(crate) fn update(&mut self, liquid: &Liquid, rates: Rates, power: Vec<f64>) -> bool {
+        let by_law = Viscosities::of(&rates, liquid, self.factor, self.slip);
         let used = std::mem::take(&mut self.used);
         let latest = Evaluation { used, rates, power };
         let converged = latest.change(&by_law) < CONVERGED;
         self.used = match &self.previous {
             Some(before) => {
                 self.response = latest.response(before, self.response);
-                latest.extrapolated(self.liquid, self.factor, self.slip, self.response)
+                latest.extrapolated(liquid, self.factor, self.slip, self.response)
             }
             None => by_law,
         };

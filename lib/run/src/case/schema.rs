@@ -6,7 +6,7 @@ use serde::Deserialize;
 use units::{Acceleration, Length, Pressure, Quantity, Speed, Time};
 
 use super::adhesive::Adhesive;
-use super::value::{BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice};
+use super::value::{BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice, some_in_voxels};
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
@@ -68,6 +68,8 @@ pub(crate) struct ClampTable {
     pub(crate) stop: Option<StopRule>,
     pub(crate) time_limit: Option<Positive<Time>>,
     pub(crate) travel: Option<Positive<Length>>,
+    #[serde(default, deserialize_with = "some_in_voxels")]
+    pub(crate) closed_gap: Option<EdgeLength>,
     #[serde(default)]
     pub(crate) stage: Vec<StageTable>,
 }
