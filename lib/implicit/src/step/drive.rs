@@ -199,7 +199,11 @@ impl ClampDrive {
         let bounds = match &self.control {
             // A release has no limit to exceed: expanding air keeps pressing on a retreating body.
             Control::Limit(control) if control.releases => None,
-            Control::Limit(control) => Some((control.limit, control.scale())),
+            Control::Limit(control) => {
+                let programme = self.programme.as_ref();
+                let limit = programme.map_or(control.limit, |run| run.set_pressure(dt));
+                Some((limit, control.scale()))
+            }
             Control::Pid(pid) => pid.limit().map(|limit| (limit, limit)),
             Control::Free => None,
         };

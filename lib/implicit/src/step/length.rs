@@ -5,7 +5,6 @@ use physics::{PressRun, StepLimit};
 use super::mid_step::{MidStep, Void};
 use super::trial::Solved;
 use super::{Implicit, LN_VISCOSITY_STEP};
-use crate::liquid::TRACE;
 use crate::settings::{ITERATION_TOLERANCE, LARGEST_CFL};
 use crate::system::Flow;
 
@@ -28,8 +27,9 @@ const EVENT: [f64; 2] = [0.2, 0.97];
 const LARGE_VOID: f64 = 0.1;
 /// Most equal steps into which a time or travel that is left is divided.
 const MOST_PARTS: f64 = 4.0;
-/// Accepted error of the travel of a step that ends the clamp's travel, as a part of it.
-const TRAVEL_TOLERANCE: f64 = 10.0 * ITERATION_TOLERANCE;
+/// Share of the remaining travel from which on a step is fitted to end the travel. A smaller one lengthens steps too much; a
+/// larger one leaves a last step that hardly moves.
+const FIT_FROM: f64 = 0.7;
 /// Fraction of the faces, the fastest ones, that the Courant number ignores. A larger one misplaces liquid; with none, jets
 /// through holes of one voxel would set the step length.
 const IGNORED_FACES: f64 = 1e-3;
@@ -183,8 +183,10 @@ impl Implicit {
             return None;
         }
         let reach = dt * flow.speed;
-        solved.ends_travel = (reach - left).abs() <= (TRAVEL_TOLERANCE * left).max(TRACE);
-        let fits = !solved.ends_travel && reach > left / EXCESS;
+        // An absolute tolerance too: the speed in a thin film is known no better.
+        let tolerance = ITERATION_TOLERANCE * left.max(self.height());
+        solved.ends_travel = (reach - left).abs() <= tolerance;
+        let fits = !solved.ends_travel && reach > FIT_FROM * left;
         fits.then(|| length_to_end_of_travel(left, now, before).min(limit.time_s))
     }
 

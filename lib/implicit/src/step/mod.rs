@@ -194,7 +194,11 @@ impl Implicit {
                 .map_err(fail)?;
             solved.reference = reference;
             dries = solved.dries_too_fast().is_some();
-            let Some(length) = self.better_length(&mut solved, limit, &mut before) else {
+            let better = self.better_length(&mut solved, limit, &mut before);
+            if std::env::var_os("DBG").is_some() {
+                eprintln!("step {} t {:.5e} h {:.5} dt {dt:.4e} V {:.4e} p {:.4e} it {} settled {} better {better:?} courant {:.3e} left {:.4e} start {}", self.state.steps, self.state.time, self.height(), solved.flow.speed, self.pressures(&solved.flow, &solved.forces)[2], solved.flow.iterations, solved.settled, dt*length::courant_speed(&solved.flow, self.setup.settings.cfl), self.travel_left(limit), start.is_some());
+            }
+            let Some(length) = better else {
                 self.check_pressure(&solved.flow)?;
                 return Ok(solved);
             };
