@@ -187,14 +187,6 @@ pub trait Scheme {
     /// # Errors
     /// If the state is no longer sound; the state before the step is then lost.
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure>;
-    /// Pressures on the lower and the upper body in the state after the last step, Pa, from a solution of that state; `None` for
-    /// a scheme whose last step tells them.
-    ///
-    /// # Errors
-    /// If the state has no solution.
-    fn end_pressures(&self) -> Result<Option<[f64; 2]>, Failure> {
-        Ok(None)
-    }
     /// Quantities of a history row, for the state after the last step.
     fn diagnostics(&self) -> Diagnostics;
     /// The liquid after the last step.

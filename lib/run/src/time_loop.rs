@@ -77,13 +77,6 @@ impl TimeLoop<'_> {
             stepping += begun.elapsed();
             steps_here += 1;
             self.clock.advance(report);
-            if ends.reached(&self.clock, scheme).is_some() {
-                let pressures = scheme.end_pressures().map_err(|failure| self.unstable(failure))?;
-                if let Some([bottom, top]) = pressures {
-                    let last = &mut self.clock.last_step;
-                    (last.pressure_bottom, last.pressure_top) = (bottom, top);
-                }
-            }
             let pressure = summary::pressure(report.pressure_top, 3);
             let state = format!("{}, {pressure}", summary::time(self.clock.time_s, 3));
             (self.progress)(&ends.possible_ends(&self.clock), state);

@@ -83,15 +83,19 @@ fn advect_substep(
         .map(|(face, &swept)| swept.signum() * donor_acceptor(mesh, &fractions, face, swept))
         .collect();
     let shares: Vec<f64> = (pores.clone().into_par_iter())
-        .map(|pore| match full[pore] || volumes[pore] == 0.0 {
-            true => 1.0,
+        .map(|pore| match full[pore] {
+            true => share_beyond_the_front(mesh, full, &flux, pore, capacities[pore] - volumes[pore]),
+            false if volumes[pore] == 0.0 => 1.0,
             false => (volumes[pore] / outflow(mesh, &flux, pore)).min(1.0),
         })
         .collect();
     flux.par_iter_mut().enumerate().for_each(|(face, flux)| {
         let f = mesh.faces[face];
-        let donor = if *flux > 0.0 { f.low } else { f.high };
-        *flux *= shares[donor as usize];
+        let ends = [f.low as usize, f.high as usize];
+        let [donor, next] = if *flux > 0.0 { ends } else { [ends[1], ends[0]] };
+        if !(full[donor] && full[next]) {
+            *flux *= shares[donor];
+        }
     });
     volumes
         .par_iter_mut()
@@ -107,6 +111,23 @@ fn advect_substep(
             moved.lost[0] += std::mem::take(volume);
             moved.lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
         }
+    }
+}
+
+/// Share of its fluxes to pores that are not full which a full pore passes on: all that it has beyond what it `lacks` of its
+/// capacity. A pore counts as full a little before it is.
+fn share_beyond_the_front(mesh: &Mesh, full: &[bool], flux: &[f64], pore: usize, lacks: f64) -> f64 {
+    let (mut inflow, mut beyond) = (0.0, 0.0);
+    for neighbour in mesh.neighbours(pore) {
+        let out = neighbour.sign() * flux[neighbour.face];
+        match out > 0.0 && !full[neighbour.pore] {
+            true => beyond += out,
+            false => inflow -= out,
+        }
+    }
+    match beyond > 0.0 {
+        true => ((inflow - lacks) / beyond).clamp(0.0, 1.0),
+        false => 1.0,
     }
 }
 

@@ -130,9 +130,15 @@ impl Implicit {
         changed
     }
 
-    /// Stores the air at the end of a step of `dt` (s); `settled` says whether it obeys the gas law.
-    pub(super) fn store_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
-        let flow = &self.state.flow;
+    /// Stores the air at the end of a step of `dt` (s) with the `flow` of its middle; `settled` says whether it obeys the gas law.
+    pub(super) fn store_air(
+        &mut self,
+        gas: Gas,
+        mut air: Air,
+        settled: bool,
+        flow: &Flow,
+        dt: f64,
+    ) {
         for pocket in air.pockets.iter_mut() {
             let pressure = flow.pressure[pocket.pores[0] as usize];
             let volume = pocket.tangent.volume_at(pressure);

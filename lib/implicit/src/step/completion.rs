@@ -2,12 +2,12 @@
 
 use std::time::Instant;
 
-use physics::{StepLimit, StepReport};
+use physics::{Failure, StepLimit, StepReport};
 
 use super::length::{courant_speed, filled_by};
 use super::mid_step::MidStep;
 use super::trial::{Solved, Trial};
-use super::{Implicit, Pressures, Reference};
+use super::{FlowOf, Implicit};
 use crate::clock::Stage;
 use crate::liquid::{Moved, TRACE, transport};
 
@@ -15,11 +15,23 @@ use crate::liquid::{Moved, TRACE, transport};
 /// flow would be repeated; the growth of a flow that starts is no trend.
 const MAX_FORESEEN_GROWTH: f64 = 1.25;
 
+/// Rate of change of the logarithm of a speed that changes between two values in a `time` (s), 1/s.
+fn trend([before, now]: [f64; 2], time: f64) -> f64 {
+    match before > 0.0 && now > 0.0 && time > 0.0 {
+        true => (now / before).ln() / time,
+        false => 0.0,
+    }
+}
+
 impl Implicit {
     /// Completes an accepted step and returns its report.
-    pub(super) fn complete_step(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
-        let (continues, pressures) = (self.continues(&solved), self.end_pressures(&solved));
-        let middle_pressures = self.pressures(&solved.flow, &solved.forces);
+    pub(super) fn complete_step(
+        &mut self,
+        solved: Solved,
+        limit: StepLimit,
+    ) -> Result<StepReport, Failure> {
+        let continues = self.continues(&solved);
+        let mut pressures = self.pressures(&solved.flow, &solved.forces);
         let Solved {
             trial: Trial {
                 middle, drive, air, ..
@@ -44,34 +56,68 @@ impl Implicit {
         state.courant_speed = courant_speed;
         state.unsettled += u64::from(!settled);
         state.time += dt;
-        state.dt = dt;
         state.steps += 1;
         state.travel += travel * cell_m;
         self.move_bodies(travel, dt);
-        let travel = self.state.travel;
-        let new_stage = self.state.drive.observe(pressures[2], dt, travel);
-        self.state.reference = (continues && !new_stage).then_some(Reference {
-            time: -0.5 * dt,
-            pressures: middle_pressures,
-        });
+        if let (Some(gas), Some(air)) = (self.setup.gas, air) {
+            self.store_air(gas, air, air_settled, &flow, dt);
+        }
+        let (closing_speed, mut iterations) = (flow.speed * cell_m, flow.iterations);
+        let (middle_speed, since) = (flow.speed, self.time_of_flow());
+        let state = &mut self.state;
+        let change = match self.setup.lattice.moving {
+            Some(_) => state.drive.change_to_end(dt),
+            None => Some(0.0),
+        };
+        match change.filter(|_| continues) {
+            Some(change) => {
+                pressures = pressures.map(|pressure| pressure + change);
+                state.trend = trend([state.flow.speed, middle_speed], since + 0.5 * dt);
+                state.flow = flow;
+                state.flow_of = FlowOf::LastStep;
+            }
+            // Velocities before the step stay those that inertia starts from.
+            None => {
+                state.flow.pressure.clone_from(&flow.pressure);
+                let drive = state.drive.clone();
+                let solved = self
+                    .solve((dt, 0.0), drive, &flow, flow.clone())
+                    .map_err(|why| self.failure(&why))?;
+                pressures = self.pressures(&solved.flow, &solved.forces);
+                iterations += solved.flow.iterations;
+                let state = &mut self.state;
+                state.trend = trend([middle_speed, solved.flow.speed], 0.5 * dt);
+                (state.flow, state.drive) = (solved.flow, solved.trial.drive);
+                state.flow_of = FlowOf::Now;
+            }
+        }
+        let state = &mut self.state;
+        (state.dt, state.pressures) = (dt, pressures);
+        if state.drive.observe(pressures[2], dt, state.travel) {
+            state.flow_of = FlowOf::Earlier;
+        }
         let report = StepReport {
             dt_s: dt,
-            closing_speed: flow.speed * cell_m,
-            travel_m: travel,
+            closing_speed,
+            travel_m: state.travel,
             pressure_bottom: pressures[0],
             pressure_top: pressures[1],
-            lost: (self.state.lost * self.setup.points_per_cell).round() as u64,
-            iterations: flow.iterations,
+            lost: (state.lost * self.setup.points_per_cell).round() as u64,
+            iterations,
         };
-        self.state.flow = flow;
-        if let (Some(gas), Some(air)) = (self.setup.gas, air) {
-            self.store_air(gas, air, air_settled, dt);
-        }
         // Between steps no row has zero height.
         if self.setup.lattice.moving.is_some() && self.height() == 0.0 {
             self.update_mesh();
         }
-        report
+        Ok(report)
+    }
+
+    /// Time since the one whose flow the state has, s.
+    pub(super) fn time_of_flow(&self) -> f64 {
+        match self.state.flow_of {
+            FlowOf::Now => 0.0,
+            _ => 0.5 * self.state.dt,
+        }
     }
 
     /// Whether the next step continues the flow of this one: no large void fills in it, or counts as full from its start.
@@ -79,19 +125,6 @@ impl Implicit {
         let (middle, flow) = (&solved.trial.middle, &solved.flow);
         let voids = self.voids(&middle.mesh, &self.full_pores(), flow, middle.end_height);
         self.setup.gas.is_some() || !filled_by(&voids, middle.dt)
-    }
-
-    /// Pressures on the bodies at the end of a step.
-    fn end_pressures(&self, solved: &Solved) -> Pressures {
-        let dt = solved.trial.middle.dt;
-        let now = self.pressures(&solved.flow, &solved.forces);
-        if let Some(change) = solved.trial.drive.change_to_end(dt) {
-            return now.map(|pressure| pressure + change);
-        }
-        match solved.reference {
-            Some(reference) => reference.extrapolated((0.5 * dt, now), dt),
-            None => now,
-        }
     }
 
     /// Closes the gap by `travel` (cells), moves water between pores and walls, and advects the liquid by the face `velocity`.

@@ -114,17 +114,17 @@ impl ClampDrive {
     }
 
     /// Begins a step: sets the pressure limit to that of the programme `ahead` (s) of now. Under a limit the estimated speed
-    /// changes in proportion, as that of viscous flow does.
-    pub(super) fn begin(&mut self, ahead: f64) {
+    /// changes in proportion, as that of viscous flow does. Returns whether a constant limit sets the speed.
+    pub(super) fn begin(&mut self, ahead: f64) -> bool {
         let Control::Limit(control) = &mut self.control else {
-            return;
+            return false;
         };
         control.exceeded = None;
         if control.sets == Sets::Least {
             control.sets = Sets::Limit;
         }
         let Some(programme) = &self.programme else {
-            return;
+            return control.sets == Sets::Limit;
         };
         let limit = programme.set_pressure(ahead);
         let factor = limit / control.limit;
@@ -132,6 +132,7 @@ impl ClampDrive {
         if control.sets == Sets::Limit && factor > 0.0 && factor.is_finite() {
             self.speed = (self.speed * factor).min(control.speeds[0]);
         }
+        control.sets == Sets::Limit && factor == 1.0
     }
 
     /// The load control if the limit sets the speed.
@@ -188,7 +189,6 @@ impl ClampDrive {
                 Some(programme.set_pressure(dt) - control.limit)
             }
             (Control::Limit(control), None) if control.sets == Sets::Limit => Some(0.0),
-            (Control::Pid(_), _) => Some(0.0),
             _ => None,
         }
     }
@@ -303,14 +303,15 @@ mod tests {
             pid: None,
         };
         let mut drive = ClampDrive::new(Some(clamp), None, 1e-9, 2.0);
-        assert!(drive.activate_if_exceeded(1.004e6).is_none());
-        let limit = |control: Option<LoadControl>| control.map(|control| control.limit);
-        assert_eq!(limit(drive.activate_if_exceeded(1.006e6)), Some(1e6));
-        assert!(!drive.accept_speed(-1.0));
-        assert_eq!(
-            (drive.speed, limit(drive.active_load_control())),
-            (0.0, Some(1e6))
-        );
+        drive.begin(0.0);
+        assert!(drive.agrees(1.004e6, 2.0) && drive.held().is_none());
+        assert!(!drive.agrees(1.006e6, 2.0));
+        assert_eq!(drive.held().map(|control| control.limit), Some(1e6));
+        assert!(!drive.agrees(1e6, -1.0) && drive.held().is_none());
+        assert_eq!(drive.speed, 0.0);
+        drive.begin(0.0);
+        assert!(drive.held().is_some() && !drive.agrees(1e6, 3.0));
+        assert_eq!((drive.speed, drive.held().is_none()), (2.0, true));
         let broken = [1.019e6, 1.021e6, 1.03e6, 1e6].map(|pressure| {
             drive.observe(pressure, 1e-9, 0.0);
             drive.violations
@@ -333,8 +334,8 @@ mod tests {
             };
             let programme = PressRun::new(vec![stage], 1e-5);
             let mut drive = ClampDrive::new(None, Some(programme), 1e-9, 1e-3);
-            drive.set_limit_ahead(1.0);
-            drive.accept_speed(-2e-3);
+            drive.begin(1.0);
+            drive.agrees(2e6, -2e-3);
             drive.observe(2e6, 1.0, 0.0);
             drive.violations.0
         });

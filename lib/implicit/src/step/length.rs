@@ -204,14 +204,13 @@ impl Implicit {
     fn limit_reached(&self, solved: &Solved, pressure: f64) -> Option<f64> {
         let dt = solved.trial.middle.dt;
         let [limit, pressure] = solved.trial.drive.at_full_speed(pressure)?;
-        let reference = solved.reference?;
-        let [start, before] = [reference.time, reference.pressures[2]];
+        let before = solved.start_pressures[2];
         // In proportion while pressure grows by a factor, evenly from none.
         let grown = match before > 0.1 * pressure {
             true => (limit / before).ln() / (pressure / before).ln(),
             false => (limit - before) / (pressure - before),
         };
-        let time = start + (0.5 * dt - start) * grown;
+        let time = 0.5 * dt * grown;
         (time > EVENT[0] * dt && time < EVENT[1] * dt && pressure > before).then_some(time)
     }
 }

@@ -51,19 +51,20 @@ pub(super) struct Void {
 }
 
 impl Implicit {
-    /// The state a `part` into a step of `dt` (s): liquid moved by `flow` from the start of the step, the gap closed at its
-    /// speed. `full` pores count as full.
+    /// The state a `part` into a step of `dt` (s): liquid moved by `flow` from the start of the step, the gap closed at a speed
+    /// `closing`. `full` pores count as full.
     ///
     /// # Errors
     /// Where no balance of the water is found.
     pub(super) fn middle(
         &self,
         (dt, part): (f64, f64),
+        closing: f64,
         flow: &Flow,
         full: Vec<bool>,
     ) -> Result<MidStep, String> {
         let begun = Instant::now();
-        let end_height = self.end_height(dt, flow.speed);
+        let end_height = self.end_height(dt, closing);
         // The flow of a film goes with a power of its height: the geometric mean has its mean flow.
         let height = match part {
             0.0 => self.height(),

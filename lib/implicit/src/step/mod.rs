@@ -71,8 +71,10 @@ struct State {
     /// Flow speed of the last step for the Courant number, cells/s, and its expected growth to the next step, a factor.
     courant_speed: f64,
     growth: f64,
-    /// Pressures in the middle of the last step; `None` where the next step does not continue it.
-    reference: Option<Reference>,
+    /// What `flow` is, the pressures on the bodies by it, and the rate of change of ln(closing speed) in it, 1/s.
+    flow_of: FlowOf,
+    pressures: Pressures,
+    trend: f64,
     /// Liquid volume that left the domain, cells.
     lost: f64,
     /// Steps whose iterations did not converge.
@@ -84,24 +86,16 @@ struct State {
 /// Pressures on bodies, Pa: the lower one, the upper one, the moving one.
 type Pressures = [f64; 3];
 
-/// Pressures at a time, s from the start of a step.
-#[derive(Clone, Copy, Debug)]
-struct Reference {
-    time: f64,
-    pressures: Pressures,
-}
-
-impl Reference {
-    /// The pressures at another `time`, on a line through these and those `at` a time.
-    fn extrapolated(&self, (at, pressures): (f64, Pressures), time: f64) -> Pressures {
-        let ahead = (time - at) / (at - self.time);
-        std::array::from_fn(|i| {
-            let [before, now] = [self.pressures[i], pressures[i]];
-            let change = ahead * (now - before);
-            // A pressure that jumps says nothing of its slope.
-            now + change.clamp(-0.5 * now.abs(), 0.5 * now.abs())
-        })
-    }
+/// What the flow of a state is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum FlowOf {
+    /// That of an earlier state: the next step begins by a solution of its start.
+    #[default]
+    Earlier,
+    /// That of the middle of the last step, which the next step continues.
+    LastStep,
+    /// That of this state.
+    Now,
 }
 
 impl Implicit {
@@ -167,7 +161,7 @@ impl Implicit {
         self.update_mesh();
         self.clock.add(Stage::Geometry, begun);
         let solved = self.find_step(limit)?;
-        Ok(self.complete_step(solved, limit))
+        self.complete_step(solved, limit)
     }
 
     /// Solves steps of different lengths until one is acceptable.
@@ -175,28 +169,28 @@ impl Implicit {
         let mut dt = self.step_length(limit);
         let fail = |why: String| self.failure(&why);
         self.check_length(dt)?;
-        let start = self.start_of_step(dt).map_err(fail)?;
-        let (ahead, drive) = match &start {
-            Some(start) => (&start.flow, &start.trial.drive),
-            None => (&self.state.flow, &self.state.drive),
+        let start = match self.state.flow_of {
+            FlowOf::Earlier => Some(self.solve_now(dt).map_err(fail)?),
+            _ => None,
         };
-        let reference = match &start {
-            Some(start) => Some(Reference {
-                time: 0.0,
-                pressures: self.pressures(&start.flow, &start.forces),
-            }),
-            None => self.state.reference,
+        let (ahead, drive, pressures) = match &start {
+            Some(start) => (
+                &start.flow,
+                &start.trial.drive,
+                self.pressures(&start.flow, &start.forces),
+            ),
+            None => (&self.state.flow, &self.state.drive, self.state.pressures),
         };
         let (mut guess, mut before, mut dries) = (ahead.clone(), None, false);
         for _ in 0..MAX_ATTEMPTS {
             let mut solved = self
                 .solve((dt, 0.5), drive.clone(), ahead, guess)
                 .map_err(fail)?;
-            solved.reference = reference;
+            solved.start_pressures = pressures;
             dries = solved.dries_too_fast().is_some();
             let better = self.better_length(&mut solved, limit, &mut before);
             if std::env::var_os("DBG").is_some() {
-                eprintln!("step {} t {:.5e} h {:.5} dt {dt:.4e} V {:.4e} p {:.4e} it {} settled {} better {better:?} courant {:.3e} left {:.4e} start {}", self.state.steps, self.state.time, self.height(), solved.flow.speed, self.pressures(&solved.flow, &solved.forces)[2], solved.flow.iterations, solved.settled, dt*length::courant_speed(&solved.flow, self.setup.settings.cfl), self.travel_left(limit), start.is_some());
+                eprintln!("step {} t {:.5e} h {:.5} dt {dt:.4e} V {:.4e} p {:.4e} it {} settled {} better {better:?} courant {:.3e} left {:.4e} of {:?}", self.state.steps, self.state.time, self.height(), solved.flow.speed, self.pressures(&solved.flow, &solved.forces)[2], solved.flow.iterations, solved.settled, dt*length::courant_speed(&solved.flow, self.setup.settings.cfl), self.travel_left(limit), self.state.flow_of);
             }
             let Some(length) = better else {
                 self.check_pressure(&solved.flow)?;
@@ -207,6 +201,12 @@ impl Implicit {
             guess = solved.flow;
         }
         Err(self.no_acceptable_length(dries))
+    }
+
+    /// Solves the flow of the state as it is, as if a step of `dt` (s) began.
+    fn solve_now(&self, dt: f64) -> Result<Solved, String> {
+        let flow = &self.state.flow;
+        self.solve((dt, 0.0), self.state.drive.clone(), flow, flow.clone())
     }
 
     fn check_length(&self, dt: f64) -> Result<(), Failure> {
@@ -227,22 +227,6 @@ impl Implicit {
                  closing_speed or an earlier end is needed"
             ))),
         }
-    }
-
-    /// The flow at the start of a step of `dt` (s), where the last step does not tell it.
-    fn start_of_step(&self, dt: f64) -> Result<Option<Solved>, String> {
-        if self.state.reference.is_some() {
-            return Ok(None);
-        }
-        let (drive, flow) = (self.state.drive.clone(), &self.state.flow);
-        self.solve((dt, 0.0), drive, flow, flow.clone()).map(Some)
-    }
-
-    /// Pressures on the bodies between steps.
-    fn pressures_now(&self) -> Result<Pressures, String> {
-        let (drive, flow) = (self.state.drive.clone(), &self.state.flow);
-        let solved = self.solve((self.state.dt, 0.0), drive, flow, flow.clone())?;
-        Ok(self.pressures(&solved.flow, &solved.forces))
     }
 
     /// Pressures on the bodies.

@@ -5,7 +5,7 @@ use physics::{
     StepLimit, StepReport, restored,
 };
 
-use super::{Implicit, Reference};
+use super::{FlowOf, Implicit};
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::FaceMap;
 
@@ -15,11 +15,6 @@ const PROGRAMME: &str = "programme";
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         self.step(limit)
-    }
-
-    fn end_pressures(&self) -> Result<Option<[f64; 2]>, Failure> {
-        let [lower, upper, _] = self.pressures_now().map_err(|why| self.failure(&why))?;
-        Ok(Some([lower, upper]))
     }
 
     fn diagnostics(&self) -> Diagnostics {
@@ -77,9 +72,8 @@ impl Scheme for Implicit {
             state.dt,
         ];
         scalars.extend(state.drive.state());
-        let reference = state.reference.map(|reference| reference.pressures);
-        scalars.push(f64::from(u8::from(reference.is_some())));
-        scalars.extend(reference.unwrap_or_default());
+        scalars.extend([f64::from(state.flow_of as u8), state.trend]);
+        scalars.extend(state.pressures);
         let rows = [
             self.mesh.rows().gap,
             self.mesh.range.start,
@@ -127,7 +121,7 @@ impl Scheme for Implicit {
         else {
             return Err("the checkpoint's scalars are not those of this scheme".into());
         };
-        let Some((drive, &[continues, ref pressures @ ..])) = drive.split_at_checked(7) else {
+        let Some((drive, &[flow_of, trend, ref pressures @ ..])) = drive.split_at_checked(7) else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
         let (Ok(drive), Ok(pressures)) =
@@ -188,10 +182,12 @@ impl Scheme for Implicit {
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.flow.dissipation = dissipation;
-        state.reference = (continues != 0.0).then_some(Reference {
-            time: -0.5 * dt,
-            pressures,
-        });
+        state.flow_of = match flow_of {
+            0.0 => FlowOf::Earlier,
+            1.0 => FlowOf::LastStep,
+            _ => FlowOf::Now,
+        };
+        (state.trend, state.pressures) = (trend, pressures);
         state.displacement = displacement;
         self.mesh = mesh;
         self.rebuild_walls(&FaceMap::default());

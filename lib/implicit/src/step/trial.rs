@@ -6,7 +6,7 @@ use super::compression::Compression;
 use super::drive::ClampDrive;
 use super::length::filled_within;
 use super::mid_step::{MidStep, Void};
-use super::{Implicit, Reference};
+use super::{Implicit, Pressures};
 use crate::air::Air;
 use crate::clock::Stage;
 use crate::geometry::Mesh;
@@ -44,8 +44,8 @@ pub(super) struct Solved {
     pub(super) settled: bool,
     /// Whether the pockets of air obey the gas law.
     pub(super) air_settled: bool,
-    /// Pressures before its middle.
-    pub(super) reference: Option<Reference>,
+    /// Pressures on the bodies at its start.
+    pub(super) start_pressures: Pressures,
     /// Whether the step ends the travel of the clamp.
     pub(super) ends_travel: bool,
 }
@@ -65,15 +65,21 @@ impl Implicit {
     ) -> Result<Solved, String> {
         let (dt, part) = step;
         // Liquid has the pressure of this time, air that of its volume at the end of the step.
-        drive.begin(match self.setup.gas {
+        let begins = drive.begin(match self.setup.gas {
             Some(_) => dt,
             None => part * dt,
         });
         let cell_m = self.setup.units.cell_m;
+        let started = drive.speed / cell_m;
+        if begins && part > 0.0 {
+            drive.speed *= self.foreseen(part * dt);
+        }
         // Viscous flow is proportional to the closing speed.
         guess.scale_to_speed(drive.speed / cell_m);
-        let estimate = ahead.at_speed(drive.speed / cell_m);
-        let middle = self.middle(step, &estimate, self.full_pores())?;
+        // Liquid moves to the middle by the flow half-way there.
+        let closing = drive.speed / cell_m;
+        let halfway = ahead.at_speed((started * closing).max(0.0).sqrt().copysign(closing));
+        let middle = self.middle(step, closing, &halfway, self.full_pores())?;
         let torn = vec![false; self.mesh.pores.len()];
         let unknowns = Unknowns::new(&middle.mesh, &middle.fractions, &torn);
         let air = self.air_pockets(&unknowns, &middle.fractions, dt);
@@ -116,9 +122,17 @@ impl Implicit {
             forces,
             settled,
             air_settled,
-            reference: None,
+            start_pressures: [0.0; 3],
             ends_travel: false,
         })
+    }
+
+    /// Factor by which the closing speed under a limit is expected to change from the last flow to a `time` (s) in the next step.
+    fn foreseen(&self, time: f64) -> f64 {
+        /// Bound on the factor: a trend that is no trend.
+        const MOST: f64 = 2.0;
+        let ahead = (self.state.trend * (self.time_of_flow() + time)).exp();
+        ahead.clamp(1.0 / MOST, MOST)
     }
 
     /// Solves once with all parts of a trial as they are, from the flow `start`. Returns the flow, the forces on the bodies,
@@ -272,7 +286,7 @@ impl Implicit {
         for void in &voids {
             void.pores.iter().for_each(|&pore| full[pore as usize] = true);
         }
-        let other = self.middle((middle.dt, middle.part), flow, full)?;
+        let other = self.middle((middle.dt, middle.part), flow.speed, flow, full)?;
         let agrees = match found < assumed {
             _ if !voids.is_empty() => false,
             true => !is_off && !other.has_more_full_pores(middle),
