@@ -7,13 +7,28 @@ use physics::{Failure, StepLimit, StepReport};
 use super::length::{courant_speed, filled_by};
 use super::mid_step::MidStep;
 use super::trial::{Solved, Trial};
-use super::{FlowOf, Implicit};
+use super::{FlowOf, Implicit, Pressures};
 use crate::clock::Stage;
 use crate::liquid::{Moved, TRACE, transport};
 
 /// Bound on the extrapolated growth of the flow speed from step to step. Without extrapolation every step of an accelerating
 /// flow would be repeated; the growth of a flow that starts is no trend.
 const MAX_FORESEEN_GROWTH: f64 = 1.25;
+
+/// Pressures at a `time`, in proportion to those at two times before.
+fn extrapolated(
+    (then, before): (f64, Pressures),
+    (now, pressures): (f64, Pressures),
+    time: f64,
+) -> Pressures {
+    std::array::from_fn(|i| {
+        let growth = pressures[i] / before[i];
+        match growth > 1.0 / MOST_GROWTH && growth < MOST_GROWTH {
+            true => pressures[i] * growth.powf((time - now) / (now - then)),
+            false => pressures[i],
+        }
+    })
+}
 
 /// Rate of change of the logarithm of a speed that changes between two values in a `time` (s), 1/s.
 fn trend([before, now]: [f64; 2], time: f64) -> f64 {
@@ -23,6 +38,11 @@ fn trend([before, now]: [f64; 2], time: f64) -> f64 {
     }
 }
 
+/// Steps at the start of a run whose last pressures tell nothing of the next.
+const STARTING: u64 = 2;
+/// Ratio of two pressures that is a jump, not a trend.
+const MOST_GROWTH: f64 = 2.0;
+
 impl Implicit {
     /// Completes an accepted step and returns its report.
     pub(super) fn complete_step(
@@ -30,8 +50,9 @@ impl Implicit {
         solved: Solved,
         limit: StepLimit,
     ) -> Result<StepReport, Failure> {
-        let continues = self.continues(&solved);
+        let continues = self.continues(&solved, limit);
         let mut pressures = self.pressures(&solved.flow, &solved.forces);
+        let (middle_pressures, before) = (pressures, solved.before);
         let Solved {
             trial: Trial {
                 middle, drive, air, ..
@@ -64,36 +85,34 @@ impl Implicit {
         }
         let (closing_speed, mut iterations) = (flow.speed * cell_m, flow.iterations);
         let (middle_speed, since) = (flow.speed, self.time_of_flow());
-        let state = &mut self.state;
-        let change = match self.setup.lattice.moving {
-            Some(_) => state.drive.change_to_end(dt),
-            None => Some(0.0),
-        };
-        match change.filter(|_| continues) {
-            Some(change) => {
-                pressures = pressures.map(|pressure| pressure + change);
-                state.trend = trend([state.flow.speed, middle_speed], since + 0.5 * dt);
-                state.flow = flow;
-                state.flow_of = FlowOf::LastStep;
-            }
+        // A gap without height has no flow.
+        let closed = self.setup.lattice.moving.is_some() && self.height() == 0.0;
+        if continues || closed || self.setup.lattice.moving.is_none() {
+            let state = &mut self.state;
+            pressures = match state.drive.change_to_end(dt) {
+                Some(change) => pressures.map(|pressure| pressure + change),
+                None => extrapolated(before, (0.5 * dt, pressures), dt),
+            };
+            state.trend = trend([state.flow.speed, middle_speed], since + 0.5 * dt);
+            (state.flow, state.flow_of, state.pressures) =
+                (flow, FlowOf::LastStep, middle_pressures);
+        } else {
             // Velocities before the step stay those that inertia starts from.
-            None => {
-                state.flow.pressure.clone_from(&flow.pressure);
-                let drive = state.drive.clone();
-                let solved = self
-                    .solve((dt, 0.0), drive, &flow, flow.clone())
-                    .map_err(|why| self.failure(&why))?;
-                pressures = self.pressures(&solved.flow, &solved.forces);
-                iterations += solved.flow.iterations;
-                let state = &mut self.state;
-                state.trend = trend([middle_speed, solved.flow.speed], 0.5 * dt);
-                (state.flow, state.drive) = (solved.flow, solved.trial.drive);
-                state.flow_of = FlowOf::Now;
-            }
+            self.state.flow.pressure.clone_from(&flow.pressure);
+            let drive = self.state.drive.clone();
+            let solved = self
+                .solve((dt, 0.0), drive, &flow, flow.clone())
+                .map_err(|why| self.failure(&why))?;
+            pressures = self.pressures(&solved.flow, &solved.forces);
+            iterations += solved.flow.iterations;
+            let state = &mut self.state;
+            state.trend = trend([middle_speed, solved.flow.speed], 0.5 * dt);
+            state.drive = solved.trial.drive;
+            (state.flow, state.flow_of, state.pressures) = (solved.flow, FlowOf::Now, pressures);
         }
         let state = &mut self.state;
-        (state.dt, state.pressures) = (dt, pressures);
-        if state.drive.observe(pressures[2], dt, state.travel) {
+        state.dt = dt;
+        if state.drive.observe(pressures[2], dt, state.travel) || closed {
             state.flow_of = FlowOf::Earlier;
         }
         let report = StepReport {
@@ -106,7 +125,7 @@ impl Implicit {
             iterations,
         };
         // Between steps no row has zero height.
-        if self.setup.lattice.moving.is_some() && self.height() == 0.0 {
+        if closed {
             self.update_mesh();
         }
         Ok(report)
@@ -120,9 +139,15 @@ impl Implicit {
         }
     }
 
-    /// Whether the next step continues the flow of this one: no large void fills in it, or counts as full from its start.
-    fn continues(&self, solved: &Solved) -> bool {
+    /// Whether the next step continues the flow of this one, and the pressure at its end follows from those before: it is not one
+    /// of the first or the last at full speed, and no large void fills in it.
+    fn continues(&self, solved: &Solved, limit: StepLimit) -> bool {
         let (middle, flow) = (&solved.trial.middle, &solved.flow);
+        let ends = solved.ends_travel || middle.dt >= limit.time_s * (1.0 - 1e-12);
+        let free = solved.trial.drive.change_to_end(middle.dt).is_none();
+        if free && (ends || self.state.steps < STARTING) {
+            return false;
+        }
         let voids = self.voids(&middle.mesh, &self.full_pores(), flow, middle.end_height);
         self.setup.gas.is_some() || !filled_by(&voids, middle.dt)
     }

@@ -47,9 +47,6 @@ impl Compression<'_> {
         let [dt, crossing] = self.times;
         let released = |&pore: &u32| {
             let pore = pore as usize;
-            if !self.full[pore] {
-                return 0.0;
-            }
             let [before, after] = self.pore_volumes(pore);
             let compressed = before * self.relative_excess(self.pressure[pore]);
             let off = self.volumes[pore] - before - compressed;

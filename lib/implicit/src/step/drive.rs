@@ -188,6 +188,7 @@ impl ClampDrive {
             (Control::Limit(control), Some(programme)) if control.sets == Sets::Limit => {
                 Some(programme.set_pressure(dt) - control.limit)
             }
+            (Control::Pid(_), _) => Some(0.0),
             (Control::Limit(control), None) if control.sets == Sets::Limit => Some(0.0),
             _ => None,
         }

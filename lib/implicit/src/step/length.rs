@@ -23,6 +23,8 @@ const MAX_LENGTH_RATIO: f64 = 2.0;
 /// Parts of a step within which an event does not shorten it: nearer to its start it counts for all of the step, nearer to its
 /// end for none of it.
 const EVENT: [f64; 2] = [0.2, 0.97];
+/// Bound on the lengths that a step tries for an event: what is left of it counts for the whole step.
+const MAX_EVENTS: usize = 2;
 /// Share of the flow into all voids from which the filling of one ends a step.
 const LARGE_VOID: f64 = 0.1;
 /// Most equal steps into which a time or travel that is left is divided.
@@ -33,6 +35,27 @@ const FIT_FROM: f64 = 0.7;
 /// Fraction of the faces, the fastest ones, that the Courant number ignores. A larger one misplaces liquid; with none, jets
 /// through holes of one voxel would set the step length.
 const IGNORED_FACES: f64 = 1e-3;
+
+/// The lengths tried for a step.
+pub(super) struct Attempts {
+    /// Length and the clamp's speed of the last solve.
+    before: Option<[f64; 2]>,
+    /// Least length that was too long, s.
+    too_long: f64,
+    /// How often an event shortened it.
+    events: usize,
+}
+
+impl Attempts {
+    /// None yet.
+    pub(super) fn none() -> Self {
+        Self {
+            before: None,
+            too_long: f64::INFINITY,
+            events: 0,
+        }
+    }
+}
 
 /// Length of the step that covers the travel `left`. The clamp's speed is taken as linear in the length, through the last solve
 /// and the one `before`, each given as length and speed.
@@ -145,13 +168,13 @@ impl Implicit {
         }
     }
 
-    /// A length at which to repeat a step, s; `None` where the one solved will do. `before` is the length and the clamp's speed
-    /// of the solve before. Sets whether the step ends the travel.
+    /// A length at which to repeat a step, s; `None` where the one solved will do. Sets whether the step
+    /// ends the travel.
     pub(super) fn better_length(
         &self,
         solved: &mut Solved,
         limit: StepLimit,
-        before: &mut Option<[f64; 2]>,
+        attempts: &mut Attempts,
     ) -> Option<f64> {
         let (dt, flow) = (solved.trial.middle.dt, &solved.flow);
         let cfl = self.setup.settings.cfl;
@@ -162,20 +185,25 @@ impl Implicit {
         let crossed = dt * courant_speed(flow, cfl).max(flow.speed.abs());
         let mut crossing = bounded(crossed, cfl);
         // A pocket without air collapses by the same volume whatever the length, so the speed grows as the step shrinks.
-        if self.setup.gas.is_some() && before.is_some() {
+        if self.setup.gas.is_some() && attempts.before.is_some() {
             crossing = crossing.map(|length| length.min(0.5 * dt));
         }
         let pressures = self.pressures(flow, &solved.forces);
-        let shorter = [
-            solved.dries_too_fast(),
-            crossing,
-            bounded(dt * flow.speed.abs(), self.gap_step()),
-            self.limit_reached(solved, pressures[2]),
-            self.void_filled(&solved.trial.middle, flow),
-        ];
+        let event = match attempts.events < MAX_EVENTS {
+            true => [
+                self.limit_reached(solved, pressures[2]),
+                self.void_filled(&solved.trial.middle, flow),
+            ],
+            false => [None; 2],
+        };
+        let event = event.into_iter().flatten().reduce(f64::min);
+        attempts.events += usize::from(event.is_some());
+        let gap = bounded(dt * flow.speed.abs(), self.gap_step());
+        let shorter = [solved.dries_too_fast(), crossing, gap, event];
         let now = [dt, flow.speed];
-        let before = before.replace(now);
+        let before = attempts.before.replace(now);
         if let Some(shortest) = shorter.into_iter().flatten().reduce(f64::min) {
+            attempts.too_long = attempts.too_long.min(dt);
             return Some(shortest);
         }
         let left = self.travel_left(limit);
@@ -186,8 +214,10 @@ impl Implicit {
         // An absolute tolerance too: the speed in a thin film is known no better.
         let tolerance = ITERATION_TOLERANCE * left.max(self.height());
         solved.ends_travel = (reach - left).abs() <= tolerance;
-        let fits = !solved.ends_travel && reach > FIT_FROM * left;
-        fits.then(|| length_to_end_of_travel(left, now, before).min(limit.time_s))
+        let end = length_to_end_of_travel(left, now, before);
+        let may_end = end < attempts.too_long.min(limit.time_s);
+        let fits = !solved.ends_travel && reach > FIT_FROM * left && (may_end || reach > left);
+        fits.then_some(end)
     }
 
     /// When a large void is full, if that is within the step.
@@ -204,13 +234,13 @@ impl Implicit {
     fn limit_reached(&self, solved: &Solved, pressure: f64) -> Option<f64> {
         let dt = solved.trial.middle.dt;
         let [limit, pressure] = solved.trial.drive.at_full_speed(pressure)?;
-        let before = solved.start_pressures[2];
+        let (start, [_, _, before]) = solved.before;
         // In proportion while pressure grows by a factor, evenly from none.
         let grown = match before > 0.1 * pressure {
             true => (limit / before).ln() / (pressure / before).ln(),
             false => (limit - before) / (pressure - before),
         };
-        let time = 0.5 * dt * grown;
+        let time = start + (0.5 * dt - start) * grown;
         (time > EVENT[0] * dt && time < EVENT[1] * dt && pressure > before).then_some(time)
     }
 }

@@ -27,6 +27,7 @@ use crate::system::{Edges, Flow, REST_DISTANCE, WallCouplings};
 use crate::water::AbsorbingWalls;
 use air::AirState;
 use drive::ClampDrive;
+use length::Attempts;
 use setup::Setup;
 use trial::Solved;
 use water::WaterBalance;
@@ -71,7 +72,7 @@ struct State {
     /// Flow speed of the last step for the Courant number, cells/s, and its expected growth to the next step, a factor.
     courant_speed: f64,
     growth: f64,
-    /// What `flow` is, the pressures on the bodies by it, and the rate of change of ln(closing speed) in it, 1/s.
+    /// Whose state `flow` is, the pressures on the bodies by it, and the rate of change of ln(closing speed) in it, 1/s.
     flow_of: FlowOf,
     pressures: Pressures,
     trend: f64,
@@ -173,23 +174,30 @@ impl Implicit {
             FlowOf::Earlier => Some(self.solve_now(dt).map_err(fail)?),
             _ => None,
         };
-        let (ahead, drive, pressures) = match &start {
+        let (ahead, drive, start_time, pressures) = match &start {
             Some(start) => (
                 &start.flow,
                 &start.trial.drive,
+                0.0,
                 self.pressures(&start.flow, &start.forces),
             ),
-            None => (&self.state.flow, &self.state.drive, self.state.pressures),
+            None => (
+                &self.state.flow,
+                &self.state.drive,
+                -self.time_of_flow(),
+                self.state.pressures,
+            ),
         };
-        let (mut guess, mut before, mut dries) = (ahead.clone(), None, false);
+        let (mut guess, mut attempts, mut dries) = (ahead.clone(), Attempts::none(), false);
         for _ in 0..MAX_ATTEMPTS {
             let mut solved = self
                 .solve((dt, 0.5), drive.clone(), ahead, guess)
                 .map_err(fail)?;
-            solved.start_pressures = pressures;
+            solved.before = (start_time, pressures);
             dries = solved.dries_too_fast().is_some();
-            let better = self.better_length(&mut solved, limit, &mut before);
+            let better = self.better_length(&mut solved, limit, &mut attempts);
             if std::env::var_os("DBG").is_some() {
+                for v in self.voids(&solved.trial.middle.mesh, &self.full_pores(), &solved.flow, solved.trial.middle.end_height) { if v.inflow != 0.0 { eprintln!("   void of {} inflow {:.4} free {:.4}", v.pores.len(), v.inflow * dt, v.free); } }
                 eprintln!("step {} t {:.5e} h {:.5} dt {dt:.4e} V {:.4e} p {:.4e} it {} settled {} better {better:?} courant {:.3e} left {:.4e} of {:?}", self.state.steps, self.state.time, self.height(), solved.flow.speed, self.pressures(&solved.flow, &solved.forces)[2], solved.flow.iterations, solved.settled, dt*length::courant_speed(&solved.flow, self.setup.settings.cfl), self.travel_left(limit), self.state.flow_of);
             }
             let Some(length) = better else {

@@ -44,8 +44,8 @@ pub(super) struct Solved {
     pub(super) settled: bool,
     /// Whether the pockets of air obey the gas law.
     pub(super) air_settled: bool,
-    /// Pressures on the bodies at its start.
-    pub(super) start_pressures: Pressures,
+    /// Pressures on the bodies at its start or before, and at what time from its start, s.
+    pub(super) before: (f64, Pressures),
     /// Whether the step ends the travel of the clamp.
     pub(super) ends_travel: bool,
 }
@@ -122,7 +122,7 @@ impl Implicit {
             forces,
             settled,
             air_settled,
-            start_pressures: [0.0; 3],
+            before: (0.0, [0.0; 3]),
             ends_travel: false,
         })
     }

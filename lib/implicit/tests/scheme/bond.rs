@@ -249,8 +249,8 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
 fn a_closed_clamp_stands_until_its_programme_ends() {
     let mut scene = scene(2, Boundary::Periodic, |x, z| [x, z]);
     scene.programme = vec![
-        stage(Press::Approach, 1.0, None, 1e-3),
-        stage(Press::Hold, 1.0, Some(1e9), 2e-6),
+        stage(Press::Approach, 1e-3, None, 1.0),
+        stage(Press::Hold, 1e-3, Some(1e9), 2e-3),
     ];
     let mut scheme = plainly(&scene);
     let mut held = 0;

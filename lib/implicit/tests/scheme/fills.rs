@@ -65,15 +65,16 @@ fn course(depth: usize, cfl: f64) -> Vec<Step> {
     found
 }
 
-/// Pressures of the steps of a `coarse` course over the means of a `fine` one in them.
+/// Pressures at the ends of the steps of a `coarse` course over those of a `fine` one. Where a lumen fills the pressure jumps, so
+/// the nearest pressure within a tenth of the step counts.
 fn ratios(coarse: &[Step], fine: &[Step]) -> Vec<f64> {
-    let work = |to: f64| -> f64 {
-        let part = |step: &Step| (to.min(step.travel[1]) - step.travel[0]).max(0.0);
-        fine.iter().map(|step| step.pressure * part(step)).sum()
-    };
     let ratio = |step: &Step| {
         let [start, end] = step.travel;
-        step.pressure * (end - start) / (work(end) - work(start))
+        println!("{:.3} {:.3} p {:.4e} fine {:?}", start/VOXEL, end/VOXEL, step.pressure, fine.iter().filter(|o| (o.travel[1]-end).abs()<0.25*VOXEL).map(|o| (((o.travel[1]/VOXEL)*1e3).round()/1e3, (o.pressure*1e-3).round())).collect::<Vec<_>>());
+        let near = |other: &&Step| (other.travel[1] - end).abs() <= 0.1 * (end - start) + 0.05 * VOXEL;
+        let ratios = (fine.iter().filter(near)).map(|other| step.pressure / other.pressure);
+        let nearest = |a: f64, b: f64| if a.ln().abs() < b.ln().abs() { a } else { b };
+        ratios.reduce(nearest).unwrap()
     };
     coarse.iter().map(ratio).collect()
 }

@@ -27,7 +27,7 @@ fn scene(gap: f64, [width, lumen]: [usize; 2], pressure: f64) -> Scene {
     };
     scene.clamp = clamp(1e-3, pressure);
     let stages = [
-        (Press::Hold, pressure, 1e-2),
+        (Press::Hold, pressure, 1.0),
         (Press::Release, 0.0, 1e-3),
         (Press::Release, 0.0, 1e-3),
     ];
@@ -86,7 +86,7 @@ fn meets(beyond: f64) {
     let mut scene = scene(gap, [8, 8], 1e6);
     scene.programme.clear();
     scene.clamp = None;
-    let speed = 0.1;
+    let speed = 1e-3;
     scene.bodies[1].motion = Motion::Constant([0.0, -speed, 0.0]);
     let end = (gap + beyond) * CELL / speed;
     scene.stop = Stop::Time(end);
