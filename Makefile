@@ -10,7 +10,7 @@
 #   make SET="adhesive.viscosity=500 cP clamp.max_pressure=1 MPa"   with keys of the cases changed
 #   make CELL="1 voxel" SET="contact.influence_length=0.02 cell"   in cells of one voxel, with the same influence length
 #   make BOND="--crop-to-fit --drop-islands"   bonds built with these options of build-bondline
-#   make YES=1                    starts runs of more than an hour unasked; V=1 shows commands and CSV
+#   make YES=1                    starts runs of more than an hour, or that can never close, unasked; V=1 shows commands and CSV
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif [VOXEL="1.45 um"] [LABELS=void=0,wood=1,adhesive=2]
 #                                 your own stacks, implicit runs alone unless RUNS says more
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]

@@ -8,7 +8,7 @@ $(OUT)/$(1)/wp.csv: $(OUT)/$(1)/final.mpts $(2) $(BIN)/wp-metrics FORCE
 	$$(call made,$(BIN)/wp-metrics $$< --pressure $(2:%=--finer %) --map $$(@D)/map.csv --profile $$(@D)/depth.csv -o $$@ && \
 	    awk -F$$(COMMA) -f pipelines/row.awk run=$(1) $$@)
 endef
-$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call wp_rule,$(a)/$(r),$(if $(filter $(r),$(FINER)),$(OUT)/$(a)/$(r)-finer/final.mpts)))))
+$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call wp_rule,$(a)/$(r),$(if $(filter $(r),$(call finer,$(a))),$(OUT)/$(a)/$(r)-finer/final.mpts)))))
 
 EXPERIMENT_TABLES := $(EXPERIMENTS:.mpts=.csv)
 $(EXPERIMENT_TABLES): private OUTPUTS = $(@D)/experiment-map.csv $(@D)/experiment-depth.csv

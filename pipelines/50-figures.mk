@@ -65,9 +65,9 @@ $(OUT)/figures/$(1)-grid.$(FIRST): $(OUT)/$(1)/bond.mpts $(BIN)/bond-figures FOR
 	    --grid $$(call q,$$(or $$(CELL),2 voxels)) --part "0 voxels:30 voxels$$(COMMA)0 voxels:30 voxels" $$(PICTURES))
 
 $(OUT)/figures/$(1)-pressure.$(FIRST): private READS = $$(foreach f,history.csv summary.json resolved.toml,$$(patsubst %/final.mpts,%/$$(f),$$(filter %/final.mpts,$$^)))
-$(OUT)/figures/$(1)-pressure.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(FINER:%=$(OUT)/$(1)/%-finer/final.mpts) $(BIN)/bond-figures FORCE
+$(OUT)/figures/$(1)-pressure.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(patsubst %,$(OUT)/$(1)/%-finer/final.mpts,$(call finer,$(1))) $(BIN)/bond-figures FORCE
 	$$(call made,$(BIN)/bond-figures pressure --title "$$(NAME_$(1))" $$(call named,$(1),$$(RUNS),--run ) \
-	    $$(call named,$(1),$$(FINER),--finer ,-finer) $$(PICTURES))
+	    $$(call named,$(1),$$(call finer,$(1)),--finer ,-finer) $$(PICTURES))
 
 $(OUT)/figures/$(1)-adhesive.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(EXPERIMENTS) $(BIN)/bond-figures FORCE
 	$$(call made,$(BIN)/bond-figures view --wood hidden $$(call experiment,$(1),,.mpts) \

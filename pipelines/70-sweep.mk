@@ -2,7 +2,7 @@
 
 # make sweep SWEEP=table.csv [SWEEP_CASE=case.toml] [RESPONSE=max_depth_um]
 # Starting it again goes on where it was stopped; rows added to the table are added to the results.
-RESPONSE ?= wp_um
+RESPONSE ?= entered_share
 .PHONY: sweep
 sweep: $(BINARIES)
 	@pipelines/sweep/local.sh $(call q,$(SWEEP)) $(call q,$(or $(SWEEP_CASE),pipelines/cases/pf-implicit.toml)) "$(RESPONSE)" $(AT_ONCE)

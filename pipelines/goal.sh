@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes a goal of the pipeline: the bonds of the runs that it needs, then the plan of these runs, and, where they take no
-# more than an hour or YES is set, all of it.
+# more than an hour and can close, or YES is set, all of it.
 #
 #   goal.sh GOAL MAKE...
 set -euo pipefail
@@ -26,9 +26,11 @@ plan() {
         $1 == "run" && NF == 2 { run = $2 }
         $1 == "memory" { memory = $2; if (memory > most) most = memory }
         $1 == "refused" { refused = $0 }
+        $1 == "voids" && /gap will remain/ { stuck[run] = substr($0, match($0, /room/)) }
         $1 == "run" && $2 == "time" {
             time = $3 * seconds[$4]
             printf "  %-44s %9s %8.0f MB\n", run, told(time), memory
+            if (run in stuck) { print "    " stuck[run]; never = "a press without room for its adhesive never closes: take more wood on both sides of the bond line" }
             n++; all += time
             if (time > longest) longest = time
         }
@@ -36,13 +38,14 @@ plan() {
             if (all / jobs > longest) longest = all / jobs
             printf "%d run%s, %d at a time: about %s, up to %.0f MB each\n", n, (n > 1 ? "s" : ""), jobs, told(longest), most
             if (refused) print refused
-            if (refused || longest > 3600) print "ask"
+            if (never) print never
+            if (refused || never || longest > 3600) print "ask"
         }'
 }
 
 bonds=$(runs "$@" | sed -n 's/.* --particles \([^ ]*\) .*/\1/p' | sort -u)
 if [ -n "$bonds" ]; then
-    "$@" $bonds
+    "$@" $bonds ${bonds//bond.mpts/voids.txt}
     todo=$(runs "$@")
     # Cores that runs leave idle are theirs.
     [ -n "${RUN_THREADS:-}" ] || RUN_THREADS=$((AT_ONCE / $(wc -l <<<"$todo")))

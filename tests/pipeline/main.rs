@@ -23,6 +23,7 @@ mod quoted;
 mod refusals;
 mod repeatability;
 mod report;
+mod room;
 mod run_folder;
 mod slow_modes;
 mod stale;

@@ -117,6 +117,36 @@ fn stacks_may_be_called_anything_and_folders_of_results_are_refused_in_a_sentenc
     }
 }
 
+/// Finer runs, for errors, were made of presses that can never close.
+#[test]
+fn a_press_that_never_closes_gets_no_error() {
+    let folder = tempfile::tempdir_in(root().join("target")).unwrap();
+    let out = folder
+        .path()
+        .strip_prefix(root())
+        .unwrap()
+        .to_str()
+        .unwrap();
+    for adhesive in ["pf", "pva-pf"] {
+        std::fs::create_dir_all(folder.path().join(adhesive)).unwrap();
+    }
+    let told = |said: &str| std::fs::write(folder.path().join("pf/voids.txt"), said).unwrap();
+    let planned = || plan(&[&format!("OUT={out}"), "RUNS=implicit", "table2"], &[]);
+    told("room for 230 % of the adhesive");
+    let finer = |adhesive: &str| format!("--finer {out}/{adhesive}/implicit-finer/final.mpts");
+    let all = planned();
+    assert!(
+        all.contains(&finer("pf")) && all.contains(&finer("pva-pf")),
+        "{all}"
+    );
+    told("room for 62 % of the adhesive: at least 24.5 um of the gap will remain");
+    let some = planned();
+    assert!(
+        !some.contains("/pf/implicit-finer") && some.contains(&finer("pva-pf")),
+        "{some}"
+    );
+}
+
 /// The tools were installed with their tables of lines, 215 MB.
 #[test]
 fn the_tools_are_installed_stripped() {

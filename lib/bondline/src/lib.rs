@@ -13,6 +13,7 @@ mod lay_up;
 mod open_voids;
 mod placed;
 mod plane;
+mod room;
 mod severed;
 mod slab;
 
@@ -23,4 +24,5 @@ pub use lay_up::{Layup, Pieces, lay_up};
 pub use open_voids::open_voids;
 pub use placed::{PlacedVoxels, Specimen};
 pub use plane::{BondLine, find_bond_line, layers_to_surface};
+pub use room::{Press, Room};
 pub use severed::{severed, severed_doubt};

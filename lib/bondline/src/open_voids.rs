@@ -7,19 +7,21 @@ use units::Axis;
 
 const WORD: usize = u64::BITS as usize;
 
-/// The voids that are connected, through faces of voxels, to those of `layer` across `normal`.
+/// The voids that are connected, through faces of voxels, to those of `layer` across `normal`; along axes that are `periodic`
+/// also through the sides.
 ///
 /// Liquid passes between the adherends through the bond plane only, so each adherend is treated alone, from its layer at
 /// the bond: the last one of the lower, the first one of the upper.
 ///
 /// # Panics
 /// If there is no such layer.
-pub fn open_voids(wood: BitsRef, normal: Axis, layer: usize) -> BitGrid {
+pub fn open_voids(wood: BitsRef, normal: Axis, layer: usize, periodic: [bool; 3]) -> BitGrid {
     let dims = wood.dims();
     let [nx, ny, nz] = dims;
     assert!(layer < dims[normal.index()], "a layer outside the wood");
     let mut flood = Flood {
         wood,
+        periodic,
         found: BitGrid::new(dims),
         waiting: VecDeque::new(),
         is_waiting: BitGrid::new([ny, nz, 1]),
@@ -42,6 +44,7 @@ pub fn open_voids(wood: BitsRef, normal: Axis, layer: usize) -> BitGrid {
 /// A flood fill by rows along x, which takes less memory than a front of single voxels.
 struct Flood<'a> {
     wood: BitsRef<'a>,
+    periodic: [bool; 3],
     found: BitGrid,
     /// Rows (y, z) with new voids, whose neighbours are still to be visited.
     waiting: VecDeque<[usize; 2]>,
@@ -66,20 +69,25 @@ impl Flood<'_> {
     }
 
     fn spread(&mut self) {
-        let [_, ny, nz] = self.wood.dims();
+        let [nx, ny, nz] = self.wood.dims();
+        let beside = |i: usize, n: usize, periodic: bool| {
+            let below = (i > 0 || periodic).then(|| (i + n - 1) % n);
+            let above = (i + 1 < n || periodic).then(|| (i + 1) % n);
+            below.into_iter().chain(above)
+        };
         while let Some([y, z]) = self.waiting.pop_front() {
             self.is_waiting.set(y, z, 0, false);
             self.fill_row([y, z]);
-            let row = self.found.row(y, z).to_vec();
-            let beside = [
-                (y > 0, [y.wrapping_sub(1), z]),
-                (y + 1 < ny, [y + 1, z]),
-                (z > 0, [y, z.wrapping_sub(1)]),
-                (z + 1 < nz, [y, z + 1]),
-            ];
-            for (_, at) in beside.into_iter().filter(|(inside, _)| *inside) {
-                self.add(at, &row);
+            let ends = [0, nx - 1];
+            let found = ends.map(|x| self.found.get(x, y, z));
+            let open = ends.iter().all(|&x| !self.wood.get(x, y, z));
+            if self.periodic[0] && open && found[0] != found[1] {
+                ends.iter().for_each(|&x| self.found.set(x, y, z, true));
+                self.fill_row([y, z]);
             }
+            let row = self.found.row(y, z).to_vec();
+            beside(y, ny, self.periodic[1]).for_each(|y| self.add([y, z], &row));
+            beside(z, nz, self.periodic[2]).for_each(|z| self.add([y, z], &row));
         }
     }
 
@@ -127,7 +135,7 @@ mod tests {
     use super::*;
 
     /// The same fill, voxel by voxel.
-    fn by_voxels(wood: &BitGrid, axis: usize, layer: usize) -> BitGrid {
+    fn by_voxels(wood: &BitGrid, axis: usize, layer: usize, periodic: [bool; 3]) -> BitGrid {
         let dims = wood.dims();
         let mut open = BitGrid::new(dims);
         let mut front = Vec::new();
@@ -141,6 +149,10 @@ mod tests {
             for a in 0..3 {
                 let mut beside = [[x, y, z]; 2];
                 (beside[0][a], beside[1][a]) = (beside[0][a].wrapping_sub(1), beside[1][a] + 1);
+                if periodic[a] {
+                    beside[0][a] = beside[0][a].min(dims[a] - 1);
+                    beside[1][a] %= dims[a];
+                }
                 front.extend(beside.into_iter().filter(|at| at[a] < dims[a]));
             }
         }
@@ -156,9 +168,11 @@ mod tests {
                 (x * 7919 + y * 104_729 + z * 1_299_709) % 97 % 5 < 2
             });
             for (axis, normal) in Axis::ALL.into_iter().enumerate() {
-                for layer in [0, dims[axis] - 1] {
-                    let expected = by_voxels(&wood, axis, layer);
-                    let found = open_voids(wood.view(), normal, layer);
+                let mut across = [true; 3];
+                across[axis] = false;
+                for (layer, periodic) in [(0, [false; 3]), (dims[axis] - 1, across)] {
+                    let expected = by_voxels(&wood, axis, layer, periodic);
+                    let found = open_voids(wood.view(), normal, layer, periodic);
                     assert_eq!(found, expected, "{nx} {normal} {layer}");
                     assert!(nx == 1 || expected.count() > 0);
                 }

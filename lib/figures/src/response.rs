@@ -18,7 +18,7 @@ use crate::{Error, Labelled};
 struct Sweep {
     /// The one asked for, then those that stand beside it.
     results: Vec<Outcome>,
-    /// Runs that ended at their time limit before closing.
+    /// Runs that did not close.
     open: Vec<bool>,
     /// Names and values.
     parameters: Vec<(String, Vec<f64>)>,
@@ -28,8 +28,13 @@ struct Sweep {
 
 /// The column from which on a row holds results.
 const FIRST_RESULT: &str = "status";
+/// What grows with penetration, also of presses that did not close, and what is drawn of a table without it.
+const ENTERED: [&str; 2] = ["entered_share", "mean_depth_um"];
+const ELSE: &str = "wp_um";
 /// Results that stand beside the one asked for.
 const BESIDE: [&str; 2] = ["pressure_pa", "time_s"];
+/// Share of the gap left from which a press is open.
+const OPEN: f64 = 1e-3;
 /// Half the width of the ends of a bar, logical pixels.
 const CAP: f64 = 5.0;
 
@@ -38,25 +43,28 @@ const LONGEST: f64 = 380.0;
 const LEAST: f64 = 130.0;
 const HEIGHT: f64 = 0.74;
 
-/// A `result` of a sweep, a column of numbers, known to a relative `error` (by default what small specimens show),
+/// A `result` of a sweep, a column of numbers (by default the share of the adhesive that entered the wood, with its mean
+/// depth), known to a relative `error` (by default what small specimens show),
 /// pressure and time where there are any, against each of its parameters with more than one number or, where there is
 /// none, the row: a panel each, from the CSV of `bond-sweep collect`. Runs that differ in that parameter alone are joined
 /// by a line.
 ///
 /// # Errors
 /// [`Error::Data`] for a table that is not of a sweep or a result without a number; [`Error::Request`] for one that it lacks.
-pub fn response(
+pub fn response<'a>(
     sweep: &Labelled,
-    result: &str,
+    result: impl Into<Option<&'a str>>,
     error: Option<f64>,
     page: Page,
 ) -> Result<Drawing, Error> {
-    Ok(Sweep::read(sweep, result, error)?.draw(page))
+    Ok(Sweep::read(sweep, result.into(), error)?.draw(page))
 }
 
 impl Sweep {
-    fn read(sweep: &Labelled, result: &str, error: Option<f64>) -> Result<Self, Error> {
+    fn read(sweep: &Labelled, result: Option<&str>, error: Option<f64>) -> Result<Self, Error> {
         let table = Table::read(&sweep.path)?;
+        let drawn = [ENTERED[0], ELSE].into_iter().find(|name| table.has(name));
+        let result = result.or(drawn).unwrap_or(ELSE);
         // A run that failed or is not sound has no results.
         let status = table.texts(FIRST_RESULT)?;
         let numbers = |name: &str| table.some_numbers(name, |row| status[row] != "sound");
@@ -66,15 +74,24 @@ impl Sweep {
         let values = numbers(result)?;
         let rows = values.len();
         let mut results = vec![Outcome::new(result, values, error)];
-        for name in BESIDE
-            .into_iter()
-            .filter(|name| *name != result && table.has(name))
+        let depth = Some(ENTERED[1]).filter(|_| result == ENTERED[0]);
+        for name in
+            (depth.into_iter().chain(BESIDE)).filter(|name| *name != result && table.has(name))
         {
-            results.push(Outcome::new(name, numbers(name)?, None));
+            // Where nothing has entered there is no depth.
+            let may_lack = |row: usize| status[row] != "sound" || depth == Some(name);
+            let values = table.numbers_but(name, may_lack)?;
+            if values.iter().any(|value| value.is_finite()) {
+                results.push(Outcome::new(name, values, None));
+            }
         }
         let ends = match table.has("end") {
             true => table.texts("end")?,
             false => vec![""; rows],
+        };
+        let left = match table.has("gap_share") {
+            true => table.numbers_but("gap_share", |_| true)?,
+            false => vec![f64::NAN; rows],
         };
         let mut parameters = Vec::new();
         let mut words = vec![Vec::new(); rows];
@@ -94,7 +111,9 @@ impl Sweep {
         }
         Ok(Self {
             results,
-            open: ends.iter().map(|end| *end == "time-limit").collect(),
+            open: (ends.iter().zip(left))
+                .map(|(end, left)| *end == "time-limit" || left > OPEN)
+                .collect(),
             parameters,
             words: words.iter().map(|row| row.join(", ")).collect(),
         })

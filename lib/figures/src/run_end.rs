@@ -16,8 +16,6 @@ const RESOLVED: &str = "resolved.toml";
 const MOST_BYTES: u64 = 1 << 20;
 /// Share of the gap below which a press is closed.
 const CLOSED: f64 = 1e-3;
-/// How many times as long a press may take that did not close.
-const LONGER: f64 = 3.0;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +36,10 @@ pub struct RunEnd {
     held_share: Option<f64>,
     /// Total WP before that release, um; NaN where the run did not measure it.
     pub(crate) held_wp_um: Option<f64>,
-    time_s: f64,
+    /// What a longer press would change, behind a semicolon.
+    outlook: String,
+    /// A time limit that would do, s.
+    time_limit_s: Option<f64>,
     command: Vec<String>,
 }
 
@@ -110,6 +111,7 @@ impl RunEnd {
         let held = stages.iter().rfind(|stage| stage["kind"] != "release");
         let held_wp = held.and_then(|stage| stage["wp_m"].as_f64());
         let travels = stages.iter().filter_map(|stage| stage["travel_m"].as_f64());
+        let outlook = summary.pointer("/outlook/said").and_then(Value::as_str);
         Self {
             end: end.unwrap_or("not-ended").replace('_', "-"),
             sound: sound.unwrap_or(false),
@@ -119,7 +121,8 @@ impl RunEnd {
             closed_in,
             held_share: released.then(|| 1.0 - travels.fold(f64::NAN, f64::max) / way_m),
             held_wp_um: released.then(|| 1e6 * held_wp.unwrap_or(f64::NAN)),
-            time_s: number("time_s"),
+            outlook: outlook.map_or(String::new(), |said| format!("; {said}")),
+            time_limit_s: (summary.pointer("/outlook/time_limit_s")).and_then(Value::as_f64),
             command: texts("/provenance/command"),
         }
     }
@@ -171,21 +174,24 @@ impl RunEnd {
     pub fn advice(&self) -> Option<String> {
         let mark = self.mark()?;
         let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
+        let ahead = &self.outlook;
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
                 let command = again(&self.command, "--resume", None);
                 format!("{mark}: mpm-run --resume continues it{command}")
             }
-            end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; "),
+            end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; ") + ahead,
             "time-limit" => {
-                let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
+                let said = format!("{open}: the penetration is that of an unfinished press{ahead}");
+                let Some(limit_s) = self.time_limit_s else {
+                    return Some(said);
+                };
+                let limit = format!("clamp.time_limit={}", time(limit_s));
                 let command = again(&self.command, "--overwrite", Some(&limit));
                 let make = of_make(&self.command, &limit);
-                format!(
-                    "{open}: the penetration is that of an unfinished press. For a longer press: --set \"{limit}\" ({make}){command}"
-                )
+                format!("{said}. For a longer press: --set \"{limit}\" ({make}){command}")
             }
-            end => format!("{open} when the run ended ({end})"),
+            end => format!("{open} when the run ended ({end}){ahead}"),
         })
     }
 }
@@ -247,6 +253,7 @@ mod tests {
         serde_json::json!({
             "end": end, "verdict": { "sound": true, "reasons": [] }, "gap_m": gap_m,
             "travel_m": 1e-5 - gap_m, "time_s": 7.5e-5,
+            "outlook": { "said": "the last 4.20 um take 18 us more", "time_limit_s": 2.26e-4 },
             "provenance": { "command": ["bin/mpm-run", "a case.toml", "--resume", "-o", "run"] },
         })
     }
@@ -259,6 +266,14 @@ mod tests {
         let command = "(make as before with SET='clamp.time_limit=300 us'):\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
         assert!(advice.ends_with(command), "{advice}");
         assert!(advice.contains("(4.20 um)"), "{advice}");
+        assert!(
+            advice.contains("; the last 4.20 um take 18 us more."),
+            "{advice}"
+        );
+        let mut full = summary("time-limit", 4.2e-6);
+        full["outlook"] = serde_json::json!({ "said": "every lumen is full" });
+        let advice = RunEnd::of(&full).advice().unwrap();
+        assert!(advice.ends_with("press; every lumen is full"), "{advice}");
         for closed in ["closed", "time"] {
             assert_eq!(RunEnd::of(&summary(closed, 0.0)).mark(), None);
         }

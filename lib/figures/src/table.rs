@@ -83,6 +83,15 @@ impl Table {
         Ok(self.rows.iter().map(|row| &row[index]).collect())
     }
 
+    /// The number of a column in the row of both sides of a table of `wp-metrics`; NaN where there is none.
+    pub fn in_total(&self, column: &str) -> f64 {
+        let (sides, cells) = (self.texts("side"), self.texts(column));
+        let cell =
+            (sides.iter().flatten().zip(cells.iter().flatten())).find(|cell| *cell.0 == "total");
+        cell.and_then(|(_, cell)| cell.parse().ok())
+            .unwrap_or(f64::NAN)
+    }
+
     /// The numbers of a column, finite in every row.
     pub(crate) fn numbers(&self, column: &str) -> Result<Vec<f64>, Error> {
         self.numbers_but(column, |_| false)

@@ -81,6 +81,8 @@ mod tests {
             p99_depth_m: 0.0,
             volume_m3: 0.0,
             voxels: 0,
+            entered_share: 0.0,
+            mean_depth_m: 0.0,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Weighted and effective penetration.
 
 use crate::quantile::quantiles;
-use crate::{Datum, State};
+use crate::{Datum, Reference, State};
 
 /// One side of the bond line, or both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
@@ -66,6 +66,11 @@ pub struct Penetration {
     pub volume_m3: f64,
     /// Number of adhesive voxels; in a run, of material points.
     pub voxels: u64,
+    /// Volume of the adhesive beyond the bond surface of the adherend over that of all adhesive, of both sides. NaN where
+    /// there are no such surfaces.
+    pub entered_share: f64,
+    /// Mean depth of that adhesive below the surface, weighted by volume, m. NaN if none has entered.
+    pub mean_depth_m: f64,
 }
 
 /// Penetration of the bottom, the top and in total.
@@ -86,6 +91,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
             sum.add(side.share(on), depth, volume);
         }
     });
+    let entered = entered(state);
     let area = state.area_m2() * datum.slant();
     let [.., total] = sums;
     std::array::from_fn(|i| {
@@ -110,8 +116,29 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
             p99_depth_m,
             volume_m3: sum.volume,
             voxels: sum.voxels.round() as u64,
+            entered_share: entered[i][0] / total.volume,
+            mean_depth_m: entered[i][1] / entered[i][0],
         }
     })
+}
+
+/// Volume (m3) of the adhesive beyond the bond surface of each side and of both, and its integral of depth below the surface
+/// (m4). NaN where no surfaces are found.
+fn entered(state: &State) -> [[f64; 2]; 3] {
+    let Ok(surfaces) = Datum::find(Reference::Adherend, state) else {
+        return [[f64::NAN; 2]; 3];
+    };
+    let mut sums = [[0.0; 2]; 3];
+    state.for_each_parcel(|point, volume| {
+        let (on, depth) = surfaces.depth(point, state.voxel_m);
+        if depth > 0.0 {
+            for (sum, side) in sums.iter_mut().zip(Side::ALL) {
+                sum[0] += side.share(on) * volume;
+                sum[1] += side.share(on) * volume * depth;
+            }
+        }
+    });
+    sums
 }
 
 /// Sums over the voxels or points of a side.

@@ -31,7 +31,7 @@ impl Sealed {
                 return Vec::new();
             }
             let area = wood.bits.dims().iter().product::<usize>() / layers(wood);
-            let open = open_voids(wood.bits, state.normal, layer);
+            let open = open_voids(wood.bits, state.normal, layer, [false; 3]);
             let open = open.view().counts_along(n).into_iter();
             open.zip(wood.bits.counts_along(n))
                 .map(|(open, wood)| area as u64 - open - wood)

@@ -13,8 +13,9 @@ const MOST_BYTES: u64 = 1 << 20;
 /// How far the table beside a run may be from what the run says of itself: else it is another state's.
 const SAME: f64 = 1e-3;
 
-/// What a state is called; WP of its bottom, its top and in total, um.
-pub type Measured = (String, [Known; 3]);
+/// What a state is called; the share of its adhesive that entered the wood, %, and the mean depth of that, um; WP of its
+/// bottom, its top and in total, um.
+pub type Measured = (String, [String; 2], [Known; 3]);
 
 /// A run folder.
 pub struct RunFolder {
@@ -109,6 +110,14 @@ impl RunFolder {
     pub(crate) fn beyond_sides(&self) -> Option<&str> {
         let mut left_out = self.list("/left_out").iter();
         left_out.find(|item| item["what"] == "beyond the sides")?["why"].as_str()
+    }
+
+    /// The share of its adhesive that entered the wood, %, and the mean depth of that, um.
+    pub(crate) fn entered(&self) -> [String; 2] {
+        [
+            self.number("/penetration/entered_share/total", 100.0, 1),
+            self.number("/penetration/mean_depth_m/total", 1e6, 2),
+        ]
     }
 
     /// A number of the summary by its path, times `unit`, with so many decimals.
@@ -257,8 +266,11 @@ impl RunFolder {
 /// # Errors
 /// An unreadable table, or none of `wp-metrics`.
 pub fn measured(file: &Labelled) -> Result<Measured, Error> {
-    let [bottom, top, total, ..] = Known::read(&Table::read(&file.path)?)?;
-    Ok((file.label.clone(), [bottom, top, total]))
+    let table = Table::read(&file.path)?;
+    let [bottom, top, total, ..] = Known::read(&table)?;
+    let entered = [("entered_share", 100.0, 1), ("mean_depth_um", 1.0, 2)]
+        .map(|(column, unit, decimals)| number(&table.in_total(column).into(), unit, decimals));
+    Ok((file.label.clone(), entered, [bottom, top, total]))
 }
 
 /// A number times `unit`, with so many decimals.

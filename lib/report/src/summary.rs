@@ -59,16 +59,16 @@ fn pressed(runs: &[RunFolder]) -> String {
 
 fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
     let wp = |known: &[Known; 3]| known.map(|known| known.told(2).join(" \u{b1} "));
-    let experiment = |(label, known): &Measured| {
+    let experiment = |(label, entered, known): &Measured| {
         let nothing = ["-", "-"].map(String::from);
-        [vec![label.clone()], wp(known).to_vec(), nothing.to_vec()].concat()
+        [&[label.clone()][..], entered, &wp(known), &nothing].concat()
     };
     let run = |run: &RunFolder| {
         let pressure = run.pressure.told_pressure(2, " \u{b1} ", run.limit);
         let mut end = run.end.mark().unwrap_or_else(|| ended(&run.end));
         end.extend(run.end.released().map(|told| format!("; {told}")));
-        let label = vec![run.label.clone()];
-        [label, wp(&run.wp).to_vec(), vec![pressure, end]].concat()
+        let label = [run.label.clone()];
+        [&label[..], &run.entered(), &wp(&run.wp), &[pressure, end]].concat()
     };
     let rows = experiments.iter().map(experiment);
     let rows: Vec<Vec<String>> = rows.chain(runs.iter().map(run)).collect();
@@ -76,14 +76,22 @@ fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
         return String::new();
     }
     let pressure = "pressure at the end (MPa)";
-    let headers = ["run", "bottom", "top", "total", pressure, "press"];
+    let [share, depth] = ["adhesive in the wood (%)", "its mean depth (um)"];
+
+    let headers = [
+        "run", share, depth, "bottom", "top", "total", pressure, "press",
+    ];
     let note = match runs.iter().any(|run| run.wp[2].has_error()) {
         true => format!(
             "<p class=\"note\">{ERRORS}; without \u{b1}: as run. Pressure at the end: {AT_THE_END}</p>\n"
         ),
         false => String::new(),
     };
-    table("Weighted penetration (um)", &headers, &rows) + &note
+    table(
+        "Adhesive in the wood; Weighted penetration (um)",
+        &headers,
+        &rows,
+    ) + &note
 }
 
 /// How a run ended against which nothing is to be said.

@@ -124,6 +124,8 @@ impl<'a> BondMeter<'a> {
             Ok(BondMeasures {
                 wp_m: sides.map(|side| side.wp_m).into(),
                 ep_m: sides.map(|side| side.ep_m).into(),
+                entered_share: sides.map(|side| side.entered_share).into(),
+                mean_depth_m: sides.map(|side| side.mean_depth_m).into(),
                 p95_depth_m: sides.map(|side| side.p95_depth_m).into(),
                 wetted_area_m2: line.wetted_m2.into(),
                 half_filled_depth_m: line.half_filled_m.into(),
@@ -219,6 +221,10 @@ pub struct BondMeasures {
     pub wp_m: BySide,
     /// Effective penetration (EP), m.
     pub ep_m: BySide,
+    /// Volume of the adhesive beyond the bond surface of the adherend over that of all adhesive.
+    pub entered_share: BySide,
+    /// Mean depth of that adhesive below the surface, m; null if none has entered.
+    pub mean_depth_m: BySide,
     /// Depth above which 95 % of the adhesive lies, m.
     pub p95_depth_m: BySide,
     /// Area of wood that adhesive wets, m2.

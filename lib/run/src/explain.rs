@@ -10,6 +10,7 @@ use crate::case::{Case, SchemeName};
 use crate::forecast::{Forecast, line};
 use crate::omissions::{Remark, omissions};
 use crate::resolve::Setup;
+use crate::room::room;
 use crate::{chords, expected_error, summary};
 
 /// The plan of a run.
@@ -63,7 +64,9 @@ fn scene(setup: &Setup) -> String {
             format!("{} m/s, {limit}", shortened(clamp.closing_speed)),
         );
     }
-    out + &line("end", end(setup))
+    out += &line("end", end(setup));
+    out.extend(room(setup).map(|room| line("voids", room)));
+    out
 }
 
 /// The liquid and its laws.

@@ -113,7 +113,7 @@ impl<'a> OpenVoids<'a> {
             || matches!(body.motion, Motion::Clamped);
         let surface = if is_top { 0 } else { block.dims()[1] - 1 };
         let wood = BitsRef::from_words(block.dims(), block.bits())?;
-        let open = open_voids(wood, Axis::Y, surface);
+        let open = open_voids(wood, Axis::Y, surface, [false; 3]);
         Some(Self { block, open })
     }
 

@@ -6,6 +6,7 @@ use serde_json::json;
 use crate::bond_measures::BondMeter;
 use crate::failure::RunFailure;
 use crate::invariants;
+use crate::outlook::outlook;
 use crate::resolve::Setup;
 use crate::snapshot::in_file_axes;
 use crate::summary::{self, Preliminaries, Summary};
@@ -61,6 +62,7 @@ pub(crate) fn summarise(
         peak_memory_bytes: machine::peak_memory_bytes(),
         programme,
         penetration,
+        outlook: outlook(outcome.end, &clock, setup.initial_gap_m, preliminaries.room),
         set_s: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
         stages: stages.iter().map(stage).collect(),
         counts: counts.into_iter().collect(),

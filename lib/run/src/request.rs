@@ -25,6 +25,7 @@ use crate::last_state::summarise;
 use crate::omissions::omissions;
 use crate::resolve::{self, Setup};
 use crate::resolved;
+use crate::room;
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{self, FailedSummary, Preliminaries, Summary};
@@ -80,12 +81,17 @@ impl Request {
         })
     }
 
-    /// Warnings about implausible voxel sizes, and about terms that are left out although the regime needs them.
+    /// Warnings about implausible voxel sizes, about terms that are left out although the regime needs them, and about adhesive
+    /// that has no room.
     pub fn warnings(&self) -> Vec<String> {
         let bond = self.bond.iter();
         let voxels = bond.filter_map(|bond| voxels::doubt_of_file(bond.header()));
         let regime = Regime::of(&self.setup.scene, &self.setup.liquid).warnings();
-        voxels.chain(regime).collect()
+        let room = room::room(&self.setup).filter(|room| room.least_gap_m > 0.0);
+        voxels
+            .chain(regime)
+            .chain(room.map(|room| room.to_string()))
+            .collect()
     }
 
     fn forecast(&self) -> Result<Forecast, RunFailure> {
@@ -224,6 +230,7 @@ impl Request {
             expected_error: expected_error::expect(&self.case, self.setup.scene.grid.cell_m),
             lumens: chords::remarks(&self.setup.scene),
             left_out: omissions(&self.case, &self.setup, &forecast.stages),
+            room: room::room(&self.setup),
             provenance: summary::provenance(by),
         })
     }

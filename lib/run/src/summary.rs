@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use bondline::Room;
 use particle_file::Provenance;
 use physics::{Choice, PressRun};
 use serde::Serialize;
@@ -13,6 +14,7 @@ use crate::expected_error::ExpectedError;
 use crate::history;
 use crate::invariants::Invariants;
 use crate::omissions::{BEYOND_SIDES, Remark, UNCERTAIN};
+use crate::outlook::Outlook;
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
@@ -58,6 +60,9 @@ pub struct Summary {
     /// Penetration and bond line, for a bond in three dimensions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penetration: Option<BondMeasures>,
+    /// What a longer press would change, of one that did not close.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outlook: Option<Outlook>,
     /// Time at which the adhesive sets and the run ends, s; absent if it never sets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub set_s: Option<f64>,
@@ -81,6 +86,9 @@ pub struct Preliminaries {
     pub lumens: Vec<Remark>,
     /// What the run does not compute, and why.
     pub left_out: Vec<Remark>,
+    /// Room for the adhesive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub room: Option<Room>,
     /// Tool, version, command and inputs.
     pub provenance: serde_json::Value,
 }
@@ -196,6 +204,8 @@ impl Summary {
             End::Set => "ended because the adhesive has set",
             End::Interrupted => "was interrupted",
         };
+        let outlook = self.outlook.as_ref();
+        let outlook = outlook.map_or(String::new(), |ahead| format!(" ({})", ahead.said));
         let closed = self.programme.iter().position(|stage| stage.closed_below);
         let closed = closed.map_or(String::new(), |at| {
             let (stage, kind) = (at + 1, self.programme[at].kind);
@@ -214,7 +224,12 @@ impl Summary {
                 false => line,
             };
             let (wp, note) = (1e6 * found.wp_m.total, self.wp_note());
-            format!("{line}, WP {wp:.2} um{note}")
+            let share = 100.0 * found.entered_share.total;
+            let depth = match found.mean_depth_m.total {
+                depth if depth.is_finite() => format!(", {:.2} um deep on average", 1e6 * depth),
+                _ => String::new(),
+            };
+            format!("; {share:.1} % of the adhesive in the wood{depth}{line}, WP {wp:.2} um{note}")
         });
         let left = match self.points_left {
             0 => String::new(),
@@ -226,7 +241,7 @@ impl Summary {
             "not sound"
         };
         format!(
-            "The run {end}{closed} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {sound}.",
+            "The run {end}{outlook}{closed} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {sound}.",
             self.steps,
             time(self.time_s, 2),
             pressure(self.final_pressure_pa, 3),

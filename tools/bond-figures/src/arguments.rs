@@ -122,9 +122,10 @@ pub(crate) enum Figure {
         /// Table of `bond-sweep collect`
         #[arg(value_name = "CSV", value_parser = given(labelled))]
         sweep: Labelled,
-        /// Column of the result to draw
-        #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
-        result: String,
+        /// Column of the result to draw [default: entered_share with mean_depth_um, which grow with penetration;
+        /// weighted penetration of a table without them]
+        #[arg(long, value_name = "COLUMN")]
+        result: Option<String>,
         /// Error by cell size of that result, in per cent [default: for weighted penetration and pressure the
         /// largest of the bonds of make, none for others]
         #[arg(long, value_name = "PERCENT", value_parser = share)]

@@ -64,7 +64,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             error,
             picture,
         } => drawn(&Inputs::new(vec![sweep])?, &picture, |files, page| {
-            response(&files[0], &result, error, page)
+            response(&files[0], result.as_deref(), error, page)
         }),
         Figure::Slice(a) => slice(a),
         Figure::Setup {

@@ -9,8 +9,8 @@ use particle_file::ParticleFile;
 use serde_json::Value;
 
 /// The columns of a result. All numbers are of the run's end; penetration is measured from midway
-/// between the adherends, as by `wp-metrics`.
-pub const COLUMNS: [&str; 14] = [
+/// between the adherends, as by `wp-metrics`; `entered_share` and `mean_depth_um` of both sides below the surfaces.
+pub const COLUMNS: [&str; 17] = [
     "status",
     "said",
     "end",
@@ -25,6 +25,9 @@ pub const COLUMNS: [&str; 14] = [
     "gap_um",
     "time_s",
     "steps",
+    "entered_share",
+    "mean_depth_um",
+    "gap_share",
 ];
 
 /// The file of a run that holds its row. It is the sign that the run need not be started again.
@@ -70,6 +73,9 @@ fn numbers(folder: &Path) -> Result<[String; COLUMNS.len() - 2], Failure> {
         um(si("gap_m")?),
         format!("{:.9e}", si("time_s")?),
         said("steps")?.to_string(),
+        format!("{:.6}", total.entered_share),
+        um(total.mean_depth_m),
+        format!("{:.6}", si("gap_m")? / (si("gap_m")? + si("travel_m")?)),
     ])
 }
 

@@ -1,6 +1,6 @@
 //! Messages of the tool on standard error.
 
-use bondline::{Bond, Face, Specimen};
+use bondline::{Bond, Face, Press, Room, Specimen};
 use metrics::{Datum, Reference, State};
 use units::Axis;
 
@@ -43,6 +43,30 @@ pub(crate) fn report(bond: &Bond, normal: Axis) {
         um(bond.effective_penetration_m()),
         um(bond.gap_m)
     ));
+    if let Some(room) = room(bond, normal) {
+        let say = if room.least_gap_m == 0.0 {
+            cli::note
+        } else {
+            cli::warn
+        };
+        say(format!("{room} (closed sides)"));
+    }
+}
+
+/// Room for the slab in the wood, with sides through which nothing leaves.
+fn room(bond: &Bond, normal: Axis) -> Option<Room> {
+    let n = normal.index();
+    let end_m = bond.bottom.origin_m[n] + bond.bottom.bits.dims()[n] as f64 * bond.voxel_m;
+    let voxel_m3 = bond.voxel_m.powi(3);
+    Room::of(&Press {
+        adherends: [&bond.bottom, &bond.top].map(|body| (body.bits.view(), voxel_m3)),
+        normal,
+        area_m2: bond.area as f64 * bond.voxel_m.powi(2),
+        apart_m: bond.top.origin_m[n] - bond.gap_m - end_m,
+        adhesive_m3: bond.adhesive_out as f64 * voxel_m3,
+        periodic: [false; 3],
+        open: [false; 3],
+    })
 }
 
 fn plane(bond: &Bond, normal: Axis) {

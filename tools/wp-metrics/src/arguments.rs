@@ -27,7 +27,8 @@ const OF_ADHESIVE: [&str; 10] = [
 /// The files are states of a run, bonds, specimens (particle files) or image stacks. Weighted penetration is
 /// WP = sqrt(sum V Y^2/sum V) (Eq. 6 of Hammerquist & Nairn), effective penetration EP = sum V/A, with V the volumes
 /// of adhesive, Y their distances from the middle of the bond line and A the bond area. slab_wp_um is WP of an
-/// unpenetrated slab of the same volume.
+/// unpenetrated slab of the same volume. entered_share is the share of the adhesive beyond the bond surface of its side,
+/// mean_depth_um the mean depth of that below the surface.
 #[derive(Parser)]
 #[command(
     version,

@@ -196,14 +196,14 @@ fn a_table_of_a_run_that_was_made_again_is_refused() {
 fn a_press_that_did_not_close_is_marked() {
     let folder = Folder::new();
     folder.file("bondline-run.toml", "");
-    let summary = r#"{"end": "time-limit", "verdict": {"sound": true, "reasons": []}, "gap_m": 4.2e-6, "travel_m": 5.8e-6, "time_s": 1e-5}"#;
+    let summary = r#"{"end": "time-limit", "verdict": {"sound": true, "reasons": []}, "gap_m": 4.2e-6, "travel_m": 5.8e-6, "time_s": 1e-5, "outlook": {"said": "it slows", "time_limit_s": 2.9e-5}}"#;
     folder.file("summary.json", summary);
     let path = folder.file("wp.csv", wp("run/final.mpts", [1.0, 2.0, 1.5]));
     let table = Table2::read(&[case("pf", "flip", path)]).unwrap();
     let text = table.to_text();
     for told in [
         "  not closed, 42 % of the gap left\n",
-        "--set \"clamp.time_limit=30 us\"",
+        "unfinished press; it slows. For a longer press: --set \"clamp.time_limit=30 us\"",
     ] {
         assert!(text.contains(told), "{text}");
     }

@@ -31,7 +31,7 @@ pub struct PenetrationRows {
 /// series, and
 /// `wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa`
 /// when a finer run was given, and `tilt_x_deg,tilt_y_deg,tilt_z_deg` of a fit with their standard errors
-/// `tilt_x_error_deg,tilt_y_error_deg,tilt_z_error_deg`.
+/// `tilt_x_error_deg,tilt_y_error_deg,tilt_z_error_deg`; always last `entered_share,mean_depth_um`.
 pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Result<()> {
     let rows = || {
         files
@@ -104,23 +104,27 @@ fn cells(file: &PenetrationRows, side: usize) -> Vec<(&'static str, String)> {
         let values = tilt.deg.into_iter().chain(tilt.error_deg);
         row.extend(names.into_iter().zip(values.map(|t| format!("{t:.4}"))));
     }
+    row.push(("entered_share", share(p.entered_share)));
+    row.push(("mean_depth_um", um(p.mean_depth_m)));
     row
 }
 
 /// A quantity of the summary: columns of its mean and standard deviation, its value on a side, and its format.
 type Summed = (&'static str, fn(&Penetration) -> f64, fn(f64) -> String);
 
-const SUMMED: [Summed; 6] = [
+const SUMMED: [Summed; 8] = [
     ("wp_um,wp_sd_um", |p| p.wp_m, um),
     ("slab_wp_um,slab_wp_sd_um", |p| p.slab_wp_m, um),
     ("ep_um,ep_sd_um", |p| p.ep_m, um),
     ("max_depth_um,max_depth_sd_um", |p| p.max_depth_m, um),
     ("p99_depth_um,p99_depth_sd_um", |p| p.p99_depth_m, um),
     ("volume_um3,volume_sd_um3", |p| p.volume_m3, um3),
+    ("entered_share,entered_sd", |p| p.entered_share, share),
+    ("mean_depth_um,mean_depth_sd_um", |p| p.mean_depth_m, um),
 ];
 
 /// `side,reference,files`, then mean and standard deviation over the files, with equal weights, of `wp_um`, `slab_wp_um`,
-/// `ep_um`, `max_depth_um`, `p99_depth_um` and `volume_um3` (`wp_um,wp_sd_um,...`). NaN if any file has NaN.
+/// `ep_um`, `max_depth_um`, `p99_depth_um`, `volume_um3`, `entered_share` and `mean_depth_um` (`wp_um,wp_sd_um,...`). NaN if any file has NaN.
 pub fn write_summary(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Result<()> {
     let columns = SUMMED.map(|(names, ..)| names).join(",");
     let reference = files.first().map_or(Reference::Mid, |file| file.reference);

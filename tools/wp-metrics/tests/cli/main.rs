@@ -14,6 +14,8 @@ use workbench::{Bench, number, rows};
 const VOXEL: f64 = 1.45e-6;
 const DIMS: [usize; 3] = [40, 60, 16];
 const HEADER: &str = "file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels";
+/// The last columns of every table.
+const ENTERED: &str = ",entered_share,mean_depth_um";
 
 fn letter(x: usize, y: usize) -> char {
     let groove = x.is_multiple_of(4);
@@ -75,7 +77,7 @@ fn state(bench: &Bench, name: &str, gap: usize, time_s: f64) {
 fn a_specimen_from_a_file_a_pipe_and_standard_input() {
     let bench = bench();
     let table = bench.run("specimen.mpts").output();
-    assert_eq!(table.lines().next(), Some(HEADER));
+    assert_eq!(table.lines().next(), Some(&*format!("{HEADER}{ENTERED}")));
     let found = rows(&table);
     // Full layers at +-1/2 to +-5/2 voxels and a quarter of those to -33/2.
     let squares = |layers: std::ops::Range<u32>| -> f64 {
@@ -111,7 +113,7 @@ fn map_profile_and_comparison() {
         assert!(record.contains("specimen.mpts"));
         rows(&text)
     };
-    let compared = table("wp.csv", &format!("{HEADER},dice,map_correlation"));
+    let compared = table("wp.csv", &format!("{HEADER},dice,map_correlation{ENTERED}"));
     assert!(compared.len() == 3 && compared.iter().all(|row| number(&row[11]) == 1.0));
     let columns = table("map.csv", "x_um,z_um,wp_um,volume_um3");
     assert_eq!(columns.len(), 40 * 16);
@@ -133,7 +135,10 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
     state(&bench, "run/final.mpts", 0, 60.0);
     let table = bench.run("--series run --profile depth.csv").output();
     let added = ",time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line,surfaces_um,half_filled_depth_um";
-    assert_eq!(table.lines().next().unwrap(), format!("{HEADER}{added}"));
+    assert_eq!(
+        table.lines().next().unwrap(),
+        format!("{HEADER}{added}{ENTERED}")
+    );
     // The last snapshot is the final state, told once.
     let found = rows(&table);
     let times: Vec<&str> = found.iter().map(|row| row[11].as_str()).collect();

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::workbench::{Bench, number, rows};
-use crate::{HEADER, specimen, state};
+use crate::{ENTERED, HEADER, specimen, state};
 
 /// Two specimens in the folder `scans`, and what is none.
 fn scans() -> Bench {
@@ -66,7 +66,7 @@ fn values_without_a_mean_are_refused() {
 fn a_fitted_plane_adds_columns_of_tilt() {
     let table = crate::bench().run("specimen.mpts --reference fit").output();
     let errors = "tilt_x_error_deg,tilt_y_error_deg,tilt_z_error_deg";
-    let header = format!("{HEADER},tilt_x_deg,tilt_y_deg,tilt_z_deg,{errors}");
+    let header = format!("{HEADER},tilt_x_deg,tilt_y_deg,tilt_z_deg,{errors}{ENTERED}");
     assert_eq!(table.lines().next(), Some(&*header));
     for row in rows(&table) {
         assert_eq!(row[11..], ["0.0000"; 6]);
