@@ -19,24 +19,28 @@ plan() {
         echo "run ${line##* -o }"
         eval "${line/--overwrite/--explain}"
     done | awk -v jobs="$AT_ONCE" '
-        BEGIN { seconds["s"] = 1; seconds["min"] = 60; seconds["h"] = 3600; seconds["days"] = 86400 }
+        BEGIN {
+            seconds["s"] = 1; seconds["min"] = 60; seconds["h"] = 3600; seconds["days"] = 86400
+            bytes["kB"] = 1e3; bytes["MB"] = 1e6; bytes["GB"] = 1e9
+        }
+        function size(b) { return b < 1e9 ? sprintf("%.0f MB", b / 1e6) : sprintf("%.1f GB", b / 1e9) }
         function told(t) {
             return t < 120 ? sprintf("%.0f s", t) : t < 7200 ? sprintf("%.0f min", t / 60) : sprintf("%.1f h", t / 3600)
         }
         $1 == "run" && NF == 2 { run = $2 }
-        $1 == "memory" { memory = $2; if (memory > most) most = memory }
+        $1 == "memory" { memory = $2 * bytes[$3]; if (memory > most) most = memory }
         $1 == "refused" { refused = $0 }
         $1 == "voids" && /gap will remain/ { stuck[run] = substr($0, match($0, /room/)) }
         $1 == "run" && $2 == "time" {
             time = $3 * seconds[$4]
-            printf "  %-44s %9s %8.0f MB\n", run, told(time), memory
+            printf "  %-44s %9s %11s\n", run, told(time), size(memory)
             if (run in stuck) { print "    " stuck[run]; never = "a press without room for its adhesive never closes: take more wood on both sides of the bond line" }
             n++; all += time
             if (time > longest) longest = time
         }
         END {
             if (all / jobs > longest) longest = all / jobs
-            printf "%d run%s, %d at a time: about %s, up to %.0f MB each\n", n, (n > 1 ? "s" : ""), jobs, told(longest), most
+            printf "%d run%s, %d at a time: about %s, up to %s each\n", n, (n > 1 ? "s" : ""), jobs, told(longest), size(most)
             if (refused) print refused
             if (never) print never
             if (refused || never || longest > 3600) print "ask"

@@ -89,6 +89,22 @@ fn runs_without_an_error_are_held_against_the_extrapolated_one() {
     assert!(page.contains(&off), "{off}");
     assert!(!page.contains("is not known (wp-metrics"));
     assert!(page.contains("sqrt(bottom^2 + top^2)/2"));
+    assert!(page.contains("no measurement of the specimen is on this page"));
+    // The specimen, measured: 0.8 times what its run says would be -20 %.
+    bench.done(
+        "wp-metrics -q specimen.mpts -o measured.csv
+         bond-report --run plain --experiment scan=measured.csv -o page.html",
+    );
+    let page = bench.text("page.html");
+    let scan = bench.measured("specimen.mpts").column("wp_um")[2];
+    let off = (wp[2] - scan).abs();
+    let off = format!(
+        "{off:.2} um ({:+.0} %) from scan.",
+        100.0 * (wp[2] / scan - 1.0)
+    );
+    assert!(page.contains(&off), "{off}");
+    assert!(!page.contains("no measurement") && !page.contains("no scan"));
+    assert_eq!(page.matches("pressure at the end (MPa)").count(), 1);
 }
 
 #[test]

@@ -10,6 +10,8 @@ pub(crate) const NORMAL: f64 = 17.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Axis {
     pub(crate) title: String,
+    /// What has no place on it, in words; stands after the title.
+    pub(crate) note: String,
     low: f64,
     high: f64,
     logarithmic: bool,
@@ -48,6 +50,7 @@ impl Axis {
     pub(crate) fn none(title: &str) -> Self {
         Self {
             title: title.into(),
+            note: String::new(),
             low: 0.0,
             high: 0.0,
             logarithmic: false,
@@ -79,28 +82,37 @@ impl Axis {
         axis
     }
 
-    /// A logarithmic axis over the positive `values`, in whole decades and at most `most` of them
-    /// below the largest value; lower values lie on its edge.
-    pub(crate) fn logarithmic(title: &str, values: impl Iterator<Item = f64>, most: f64) -> Self {
-        let (low, high) = extent(values.filter(|v| *v > 0.0));
-        let (low, high) = if high > 0.0 { (low, high) } else { (1.0, 10.0) };
+    /// A logarithmic axis over all decades of the positive `values`; a note to the title, if there is one, says how
+    /// many others have no place.
+    pub(crate) fn logarithmic(title: &str, values: impl Iterator<Item = f64>) -> Self {
+        let (placed, others): (Vec<f64>, Vec<f64>) =
+            values.filter(|v| v.is_finite()).partition(|v| *v > 0.0);
+        let (low, high) = match placed[..] {
+            [] => (1.0, 10.0),
+            _ => extent(placed.into_iter()),
+        };
         let top = high.log10().ceil();
-        let bottom = low.log10().floor().max(top - most).min(top - 1.0);
+        let note = match others.len() {
+            n if n > 0 && !title.is_empty() => format!("left out: {n} not above zero"),
+            _ => String::new(),
+        };
         Self {
-            title: title.into(),
-            low: bottom,
+            note,
+            low: low.log10().floor().min(top - 1.0),
             high: top,
             logarithmic: true,
+            ..Self::none(title)
         }
     }
 
     /// Share of the axis at which a value lies, 0 to 1 within its range; values outside are
-    /// put on the edge. NaN stays NaN.
+    /// put on the edge. NaN stays NaN, and so is what has no logarithm on a logarithmic axis.
     pub(crate) fn share(&self, value: f64) -> f64 {
-        self.part(match self.logarithmic {
-            true => value.max(0.0).log10(),
-            false => value,
-        })
+        match self.logarithmic {
+            true if value <= 0.0 => f64::NAN,
+            true => self.part(value.log10()),
+            false => self.part(value),
+        }
     }
 
     /// The same of a value, or its decade where the axis is logarithmic.
@@ -166,8 +178,6 @@ fn power_of_ten(exponent: i32) -> String {
 }
 
 const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-/// Decades of a logarithmic axis that are seen apart.
-pub(crate) const DECADES: f64 = 5.0;
 /// About how many steps an axis has.
 const STEPS: f64 = 5.0;
 
@@ -214,13 +224,19 @@ mod tests {
 
     #[test]
     fn a_logarithmic_axis_has_decades() {
-        let log = |values: &[f64]| Axis::logarithmic("", values.iter().copied(), DECADES);
+        let log = |values: &[f64]| Axis::logarithmic("x", values.iter().copied());
         let axis = log(&[0.0, 30.0, 4e5, f64::NAN]);
-        for (value, share) in [(0.0, 0.0), (10.0, 0.0), (1e3, 0.4), (1e6, 1.0)] {
+        for (value, share) in [(10.0, 0.0), (1e3, 0.4), (1e6, 1.0)] {
             assert!((axis.share(value) - share).abs() < 1e-12);
         }
+        assert!(axis.share(0.0).is_nan() && axis.share(-1.0).is_nan());
+        assert_eq!(axis.note, "left out: 1 not above zero");
         let decades = ["10¹", "10²", "10³", "10⁴", "10⁵", "10⁶"];
         assert_eq!(texts(&axis, 300.0, true), decades);
+        // 1 um/s once lay at 10 um/s, and what creeps at 1 1/s.
+        let wide = log(&[1e-6, 1.0]);
+        assert_eq!((wide.share(1e-6), wide.share(1e-3)), (0.0, 0.5));
+        assert_eq!(log(&[2e-11, 1e5]).share(1e-11), 0.0);
         let small = texts(&log(&[0.012, 30.0]), 300.0, true);
         assert_eq!(small, ["0.01", "0.1", "1", "10", "100"]);
     }

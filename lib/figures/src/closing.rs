@@ -173,7 +173,7 @@ impl Axes {
         };
         // Stages take milliseconds to minutes.
         let time = |title: &str| match staged(runs) {
-            Some(_) => Axis::logarithmic(title, times(), f64::INFINITY),
+            Some(_) => Axis::logarithmic(title, times()),
             None => Axis::over(title, first.min(0.0) / unit, last / unit),
         };
         let bands = runs.iter().flat_map(|run| &run.band);

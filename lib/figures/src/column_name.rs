@@ -6,6 +6,7 @@ pub fn worded(column: &str) -> String {
         "um2" => Some("µm²".to_owned()),
         "um3" => Some("µm³".to_owned()),
         "pa" => Some("Pa".to_owned()),
+        "m s" => Some("m/s".to_owned()),
         "cell" => Some("cells".to_owned()),
         "voxel" | "voxels" => Some("voxels".to_owned()),
         unit => units::unit(unit).map(|_| unit.replace("um", "µm")),
@@ -43,6 +44,7 @@ mod tests {
             ("volume_um3", "volume (µm³)"),
             ("wetted_area_um2", "wetted area (µm²)"),
             ("clamp.max_pressure_MPa", "clamp.max_pressure (MPa)"),
+            ("clamp.closing_speed_m_s", "clamp.closing_speed (m/s)"),
             ("integrator.cfl", "integrator.cfl"),
             ("steps", "steps"),
         ] {

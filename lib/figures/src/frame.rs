@@ -27,7 +27,8 @@ const MOST_LINES: usize = 3;
 fn title(axis: &Axis, length: f64) -> Vec<String> {
     // A title may reach over both ends by a little, where nothing else stands.
     let room = (length + 1.5 * NORMAL).max(4.5 * NORMAL);
-    measure::lines(&axis.title, NORMAL, room, MOST_LINES)
+    let lines = |text| measure::lines(text, NORMAL, room, MOST_LINES);
+    [lines(&axis.title), lines(&axis.note)].concat()
 }
 
 fn widest(axis: &Axis, height: f64) -> f64 {

@@ -20,8 +20,8 @@ pub struct Known {
 }
 
 /// Relative error of a pressure below which it may be the one that the clamp holds, and how near that it is then.
-const HELD: f64 = 2e-4;
-const NEAR: f64 = 0.01;
+pub(crate) const HELD: f64 = 2e-4;
+pub(crate) const NEAR: f64 = 0.01;
 
 /// A quantity and where a table has it.
 pub(crate) struct Quantity {

@@ -21,6 +21,7 @@ mod known;
 mod legend;
 mod measure;
 mod movie;
+mod origin;
 mod outcome;
 mod page;
 mod panels;
@@ -51,7 +52,9 @@ pub use clouds::{Clouds, Spot};
 pub use column_name::worded;
 pub use drawing::{Drawing, TextBox};
 pub use known::{Known, fixed, pressure_limit, signed};
+pub use measure::undrawn;
 pub use movie::movie;
+pub use origin::{check_origin, record};
 pub use page::Page;
 pub use penetration::{Shown, penetrations};
 pub use plot::{Mark, Plot};
@@ -89,6 +92,15 @@ impl Labelled {
             label: String::from_utf8_lossy(&bytes[..at]).into_owned(),
             path: OsStr::from_bytes(&bytes[at + 1..]).into(),
         })
+    }
+
+    /// Puts its path behind a label that several files have.
+    pub fn tell_apart(files: &mut [Self]) {
+        let labels: Vec<String> = files.iter().map(|file| file.label.clone()).collect();
+        let shared = |file: &&mut Self| labels.iter().filter(|l| **l == file.label).count() > 1;
+        for file in files.iter_mut().filter(shared) {
+            file.label += &format!(" ({})", file.path.display());
+        }
     }
 
     /// Of `LABEL=PATH`, or of a path alone, which `named` says the label of.

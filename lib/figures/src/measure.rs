@@ -1,5 +1,7 @@
 //! How much room text takes in the embedded font.
 
+use std::collections::BTreeSet;
+
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
@@ -17,6 +19,20 @@ pub(crate) const LINE: f64 = 1.2;
 /// The largest of lengths, or zero.
 pub(crate) fn highest(lengths: impl IntoIterator<Item = f64>) -> f64 {
     lengths.into_iter().fold(0.0, f64::max)
+}
+
+/// The characters of texts that pictures of the embedded font do not show as they are written, each once: it lacks them, or they
+/// belong to a script from right to left, whose letters would stand alone and in reverse.
+pub fn undrawn<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
+    let Ok(font) = FontRef::new(dejavu::sans::regular()) else {
+        return String::new();
+    };
+    let glyphs = font.charmap();
+    let leftwards =
+        |c| matches!(c, '\u{590}'..='\u{8ff}' | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{fefe}');
+    let characters = texts.into_iter().flat_map(str::chars);
+    let odd = characters.filter(|c| !c.is_control() && (glyphs.map(*c).is_none() || leftwards(*c)));
+    odd.collect::<BTreeSet<char>>().into_iter().collect()
 }
 
 /// Width of a line of text of the embedded font, in the unit of `size`.
@@ -88,6 +104,13 @@ mod tests {
         let em = EM * 20.0;
         assert!((width("HH H", 20.0) - (3.0 * 0.752 + 0.3179) * em).abs() < 0.1);
         assert_eq!(width("", 20.0), 0.0);
+    }
+
+    #[test]
+    fn text_that_the_font_does_not_show_is_named() {
+        let texts = ["WP, µm²: 10⁻³ Ωβ", "Fichte 木材 木", "سمغ a"];
+        assert_eq!(undrawn(texts), "سغم木材");
+        assert_eq!(undrawn(["Buche, Привет, ±…"]), "");
     }
 
     #[test]

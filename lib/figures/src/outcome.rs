@@ -1,9 +1,9 @@
 //! A result of a sweep: its values, error and axis.
 
-use crate::axes::{Axis, DECADES, extent};
+use crate::axes::{Axis, extent};
 use crate::closing::time_unit;
 use crate::column_name::worded;
-use crate::known::SIDES;
+use crate::known::{HELD, NEAR, SIDES};
 
 /// `out/quick/errors.csv` of `make`.
 const ERRORS: &str = include_str!("../../run/src/cell_error.csv");
@@ -22,8 +22,8 @@ pub(crate) struct Outcome {
     pub(crate) title: String,
     /// In the unit of the title; NaN where a run has none.
     pub(crate) values: Vec<f64>,
-    /// Relative error by the size of the cells; zero where none is known.
-    pub(crate) error: f64,
+    /// Relative error of each by the size of the cells; zero where none is known.
+    pub(crate) errors: Vec<f64>,
 }
 
 impl Outcome {
@@ -42,17 +42,37 @@ impl Outcome {
         };
         Self {
             title,
+            errors: vec![error.unwrap_or_else(|| known(name)); values.len()],
             values: values.into_iter().map(|value| value / unit).collect(),
-            error: error.unwrap_or_else(|| known(name)),
         }
+    }
+
+    /// The same without errors of pressures that the clamp holds at its limit: of each row in Pa or, of NaN, the largest of all
+    /// that two rows have.
+    pub(crate) fn held(mut self, limits: &[f64]) -> Self {
+        let largest = self.values.iter().copied().fold(0.0, f64::max);
+        let near = |p: f64, limit: f64, by: f64| limit > 0.0 && (p - limit).abs() <= by * limit;
+        let reached = self.values.iter().filter(|p| near(**p, largest, HELD));
+        let plateau = if reached.count() > 1 {
+            largest
+        } else {
+            f64::NAN
+        };
+        for ((p, error), limit) in self.values.iter().zip(&mut self.errors).zip(limits) {
+            if near(*p, 1e-6 * limit, NEAR) || limit.is_nan() && near(*p, plateau, HELD) {
+                *error = 0.0;
+            }
+        }
+        self
     }
 
     /// An axis over the values and their errors, no finer than these.
     pub(crate) fn axis(&self) -> Axis {
-        let ends = |v: &f64| [-self.error, self.error].map(|e| v * (1.0 + e));
-        let ends = self.values.iter().flat_map(ends);
+        let ends = |(v, error): (&f64, &f64)| [1.0 - error, 1.0 + error].map(|part| v * part);
+        let ends = self.values.iter().zip(&self.errors).flat_map(ends);
         let (low, high) = extent(ends.clone());
-        let room = ROOM * self.error * low.abs().max(high.abs());
+        let error = self.errors.iter().copied().fold(0.0, f64::max);
+        let room = ROOM * error * low.abs().max(high.abs());
         let pad = (0.5 * (room - (high - low))).max(0.0);
         // Room below zero is none for what is never there.
         let least = if low < 0.0 {
@@ -87,7 +107,7 @@ pub(crate) fn axis(name: &str, values: impl Iterator<Item = f64> + Clone) -> Axi
     let finite = values.filter(|v| v.is_finite());
     let [low, high] = [f64::min, f64::max].map(|pick| finite.clone().fold(f64::NAN, pick));
     match low > 0.0 && high > LOGARITHMIC * low {
-        true => Axis::logarithmic(name, finite, DECADES),
+        true => Axis::logarithmic(name, finite),
         false => Axis::linear(name, finite),
     }
 }
@@ -105,6 +125,24 @@ mod tests {
             let ticks = outcome.axis().ticks(300.0, true);
             assert!(ticks.iter().any(|(_, text)| text.contains(['1', '2', '5'])));
         }
+    }
+
+    /// A pressure at the limit of the clamp once had a bar of 40 %.
+    #[test]
+    fn a_pressure_that_is_held_has_no_error() {
+        let errors = |pressures: &[f64], limits: &[f64]| {
+            Outcome::new("pressure_pa", pressures.to_vec(), Some(0.4))
+                .held(limits)
+                .errors
+        };
+        let unknown = [f64::NAN; 3];
+        assert_eq!(errors(&[2.5e6, 1.9e6, 2.5001e6], &unknown), [0.0, 0.4, 0.0]);
+        assert_eq!(errors(&[2.5e6, 1.9e6, 1.8e6], &unknown), [0.4; 3]);
+        assert_eq!(errors(&[0.0; 3], &unknown), [0.4; 3]);
+        assert_eq!(
+            errors(&[0.8e6, 1.0e6, 2e6], &[1e6, 1e6, 2e6]),
+            [0.4, 0.0, 0.0]
+        );
     }
 
     /// 7.49 and 7.40 um, known to 0.17, were once the whole of an axis.

@@ -50,7 +50,7 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
     let (unit, name) = time_unit(last);
     let mut plot = Plot::new(&titled(title, runs), &format!("time ({name})"), axis);
     if last > LONG * first {
-        plot = plot.decades();
+        plot = plot.logarithmic([true, false]);
     }
     for (run, table) in runs.iter().zip(&tables) {
         let (own, sides) = match runs.len() {
@@ -80,7 +80,7 @@ fn titled(title: &str, runs: &[Labelled]) -> String {
     }
 }
 
-/// A quantity of one side over time, in `unit` (s); what is at no time has no logarithm.
+/// A quantity of one side over time, in `unit` (s).
 fn course(
     table: &Table,
     side: &str,
@@ -104,9 +104,9 @@ fn course(
             (vec![side; times.len()], values)
         }
     };
-    let rows = (0..sides.len()).filter(|&row| sides[row] == side && times[row] > 0.0);
+    let rows = (0..sides.len()).filter(|&row| sides[row] == side);
     let points: Vec<[f64; 2]> = rows.map(|row| [times[row] / unit, values[row]]).collect();
-    if points.is_empty() {
+    if !points.iter().any(|point| point[0] > 0.0) {
         return Err(Error::Data(format!(
             "'{}' has no row of the side {side} after the start, as wp-metrics --series writes them",
             table.name()

@@ -1,7 +1,7 @@
 //! The figure of any quantity against another.
 
 use crate::Error;
-use crate::axes::{Axis, DECADES, NORMAL};
+use crate::axes::{Axis, NORMAL};
 use crate::colour::{DISTINCT, faded, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
@@ -13,8 +13,8 @@ use crate::page::Page;
 #[derive(Clone, Debug)]
 pub struct Plot {
     title: String,
-    /// Titles of x and y and, where values lie by their logarithms, of how many decades at most.
-    axes: [(String, Option<f64>); 2],
+    /// Titles of x and y, and whether values lie by their logarithms.
+    axes: [(String, bool); 2],
     series: Vec<Series>,
 }
 
@@ -45,13 +45,15 @@ pub enum Mark {
 const BAND_SHADE: f64 = 0.2;
 const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
+/// Lies on the lower edge of every logarithmic axis.
+pub(crate) const LEAST: f64 = f64::MIN_POSITIVE;
 
 impl Plot {
     /// A plot without data, of axes with these titles.
     pub fn new(title: &str, x: &str, y: &str) -> Self {
         Self {
             title: title.into(),
-            axes: [(x.into(), None), (y.into(), None)],
+            axes: [(x.into(), false), (y.into(), false)],
             series: Vec::new(),
         }
     }
@@ -59,14 +61,8 @@ impl Plot {
     /// The same with logarithmic axes, x and y, where asked.
     pub fn logarithmic(mut self, which: [bool; 2]) -> Self {
         for (axis, logarithmic) in self.axes.iter_mut().zip(which) {
-            axis.1 = logarithmic.then_some(DECADES);
+            axis.1 = logarithmic;
         }
-        self
-    }
-
-    /// The same with a logarithmic x axis over all decades that there are.
-    pub fn decades(mut self) -> Self {
-        self.axes[0].1 = Some(f64::INFINITY);
         self
     }
 
@@ -119,11 +115,16 @@ impl Plot {
             return Err(Error::Data(format!("'{}' has no data", self.title)));
         }
         let axis = |i: usize| {
-            let (title, decades) = &self.axes[i];
-            let values = all().map(|p| p[i]);
-            match decades {
-                None => Axis::linear(title, values),
-                Some(most) => Axis::logarithmic(title, values, *most),
+            let (title, logarithmic) = &self.axes[i];
+            let points = self.series.iter().flat_map(|s| &s.points).map(|p| p[i]);
+            match logarithmic {
+                false => Axis::linear(title, all().map(|p| p[i])),
+                // What a deviation reaches to is no point that could be left out.
+                true => {
+                    let above = all().map(|p| p[i]).filter(|v| *v > 0.0);
+                    let others = points.filter(|v| *v <= 0.0);
+                    Axis::logarithmic(title, above.chain(others))
+                }
             }
         };
         let (x, y) = (axis(0), axis(1));
@@ -151,7 +152,11 @@ impl Plot {
             let places = |points: Vec<Point>| -> Vec<Point> {
                 (points.into_iter().map(|p| frame.place(&x, &y, p))).collect()
             };
-            series.draw_deviations(&mut drawing, series.ends().map(places));
+            let mut ends = series.ends();
+            if self.axes[1].1 {
+                ends[0].iter_mut().for_each(|p| p[1] = p[1].max(LEAST));
+            }
+            series.draw_deviations(&mut drawing, ends.map(places));
             let places = places(series.points.clone());
             series.draw_line(&mut drawing, &places);
             series.draw_dots(&mut drawing, &places);
@@ -177,11 +182,13 @@ impl Series {
 
     fn draw_deviations(&self, drawing: &mut Drawing, [low, high]: [Vec<Point>; 2]) {
         if self.mark == Mark::Dots {
-            for (low, high) in low.into_iter().zip(high) {
+            let pairs = low.into_iter().zip(high);
+            for (low, high) in pairs.filter(|(low, high)| placed(low) && placed(high)) {
                 drawing.line(vec![low, high], series(self.entry), 1.4);
             }
         } else {
             let outline = low.into_iter().chain(high.into_iter().rev());
+            let outline = outline.filter(placed);
             drawing.area(outline.collect(), faded(series(self.entry), BAND_SHADE));
         }
     }
@@ -198,6 +205,10 @@ impl Series {
             Stroke::of_series(self.entry).draw(drawing, place);
         }
     }
+}
+
+fn placed(point: &Point) -> bool {
+    point.iter().all(|x| x.is_finite())
 }
 
 #[cfg(test)]

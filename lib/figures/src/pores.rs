@@ -12,6 +12,7 @@ use crate::{Error, Labelled, Mark, Plot};
 pub fn pores(tables: &[Labelled]) -> Result<Plot, Error> {
     let (x, y) = ("diameter (µm)", "share of the open volume in smaller pores");
     let mut plot = Plot::new("Sizes of pores and lumens", x, y).logarithmic([true, false]);
+    let mut lines = Vec::new();
     for named in tables {
         let table = Table::read(&named.path)?;
         let files = table.texts("file")?;
@@ -27,9 +28,15 @@ pub fn pores(tables: &[Labelled]) -> Result<Plot, Error> {
                 _ => named.label.as_str().into(),
             };
             let rows = (0..files.len()).filter(|&row| files[row] == *specimen);
-            let points = rows.map(|row| [diameters[row], up_to[row]]).collect();
-            plot = plot.with(&label, Mark::Line, points);
+            let points: Vec<_> = rows.map(|row| [diameters[row], up_to[row]]).collect();
+            let (label, path) = (label.into_owned(), specimen.into());
+            lines.push((Labelled { label, path }, points));
         }
+    }
+    let mut names: Vec<Labelled> = lines.iter().map(|(name, _)| name.clone()).collect();
+    Labelled::tell_apart(&mut names);
+    for (name, (_, points)) in names.iter().zip(lines) {
+        plot = plot.with(&name.label, Mark::Line, points);
     }
     Ok(plot)
 }

@@ -1,5 +1,7 @@
 //! The response of a sweep to each of its parameters.
 
+use units::Pressure;
+
 use crate::axes::{Axis, NORMAL};
 use crate::colour::{DISTINCT, opaque};
 use crate::column_name::worded;
@@ -73,7 +75,15 @@ impl Sweep {
         }
         let values = numbers(result)?;
         let rows = values.len();
-        let mut results = vec![Outcome::new(result, values, error)];
+        let limits = limits(&table, rows);
+        let outcome = |name: &str, values: Vec<f64>, error: Option<f64>| {
+            let outcome = Outcome::new(name, values, error);
+            match name == BESIDE[0] && error.is_none() {
+                true => outcome.held(&limits),
+                false => outcome,
+            }
+        };
+        let mut results = vec![outcome(result, values, error)];
         let depth = Some(ENTERED[1]).filter(|_| result == ENTERED[0]);
         for name in
             (depth.into_iter().chain(BESIDE)).filter(|name| *name != result && table.has(name))
@@ -82,7 +92,7 @@ impl Sweep {
             let may_lack = |row: usize| status[row] != "sound" || depth == Some(name);
             let values = table.numbers_but(name, may_lack)?;
             if values.iter().any(|value| value.is_finite()) {
-                results.push(Outcome::new(name, values, None));
+                results.push(outcome(name, values, None));
             }
         }
         let ends = match table.has("end") {
@@ -120,14 +130,14 @@ impl Sweep {
     }
 
     fn draw(&self, page: Page) -> Drawing {
-        let kinds = self.kinds();
-        let labels = match kinds.len() {
-            2..=DISTINCT => &kinds[..],
+        let labels = self.labels();
+        let labels = match labels.len() {
+            2..=DISTINCT => &labels[..],
             _ => &[],
         };
         let columns = self.panels().count().min(3) as f64;
         let room = page.width().unwrap_or(columns * LONGEST) - 2.0 * MARGIN;
-        let key = Legend::new(labels.iter().copied(), Legend::LINE, room);
+        let key = Legend::new(labels.iter().map(String::as_str), Legend::LINE, room);
         let title = measure::lines(&self.title(), NORMAL, room, 3);
         let responses: Vec<Axis> = self.results.iter().map(Outcome::axis).collect();
         let across =
@@ -154,8 +164,9 @@ impl Sweep {
         for (frame, panel) in panels.frames.iter().zip(self.panels()) {
             let axes = [&across[panel[0]], &responses[panel[1]]];
             frame.draw(&mut drawing, axes[0], axes[1], true);
-            for (kind, path) in self.paths(panel) {
-                let kind = if labels.is_empty() { 0 } else { kind };
+            for path in self.paths(panel) {
+                let own = self.label(panel[0], path[0]);
+                let kind = labels.iter().position(|label| *label == own).unwrap_or(0);
                 self.draw_path(&mut drawing, frame, axes, panel, (kind, &path));
             }
         }
@@ -181,8 +192,12 @@ impl Sweep {
             0 => {}
             n => title += &format!("; rings: {n} did not close"),
         }
-        if self.results.iter().any(|result| result.error > 0.0) {
+        let errors = || self.results.iter().flat_map(|result| &result.errors);
+        if errors().any(|error| *error > 0.0) {
             title += "; bars: error due to the cell size";
+        }
+        if self.labels().len() > DISTINCT {
+            title += "; lines: runs that differ in one parameter alone";
         }
         title
     }
@@ -197,14 +212,15 @@ impl Sweep {
         (kind, path): (usize, &[usize]),
     ) {
         let own = &self.parameters[parameter].1;
-        let Outcome { values, error, .. } = &self.results[result];
+        let Outcome { values, errors, .. } = &self.results[result];
         let place =
             |row: usize, value: f64| -> Point { frame.place(across, response, [own[row], value]) };
         let stroke = Stroke::of_series(kind);
         let places: Vec<Point> = path.iter().map(|&row| place(row, values[row])).collect();
         stroke.draw(drawing, &places);
         for (&row, &dot) in path.iter().zip(&places) {
-            if *error > 0.0 {
+            let error = errors[row];
+            if error > 0.0 {
                 let ends = [1.0 - error, 1.0 + error].map(|part| place(row, part * values[row]));
                 drawing.line(ends.to_vec(), stroke.colour, 1.4);
                 for [x, y] in ends {
@@ -218,45 +234,62 @@ impl Sweep {
         }
     }
 
-    /// What tells rows apart beside numbers, in the order of the table.
-    fn kinds(&self) -> Vec<&str> {
-        let mut kinds: Vec<&str> = Vec::new();
-        for words in &self.words {
-            if !kinds.contains(&words.as_str()) {
-                kinds.push(words);
-            }
-        }
-        kinds
+    /// What tells a line through `row` over parameter `i` from the others of its panel: words and the other parameters.
+    fn label(&self, i: usize, row: usize) -> String {
+        let others = self.parameters.iter().enumerate().filter(|(k, _)| *k != i);
+        let others = others.map(|(_, (name, values))| format!("{} {}", worded(name), values[row]));
+        let words = Some(self.words[row].clone()).filter(|words| !words.is_empty());
+        words
+            .into_iter()
+            .chain(others)
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 
-    /// Rows with result `result` that differ in parameter `i` alone, by its values; and which of the kinds
-    /// they are.
-    fn paths(&self, [i, result]: [usize; 2]) -> Vec<(usize, Vec<usize>)> {
-        let kinds = self.kinds();
-        let others = |row: usize| -> (&str, Vec<u64>) {
-            let rest = self.parameters.iter().enumerate().filter(|(k, _)| *k != i);
-            let rest = rest.map(|(_, (_, values))| values[row].to_bits());
-            (&self.words[row], rest.collect())
-        };
-        let mut paths: Vec<(usize, Vec<usize>)> = Vec::new();
+    /// Those of all lines, in the order of panels and rows.
+    fn labels(&self) -> Vec<String> {
+        let mut labels: Vec<String> = Vec::new();
+        for panel in self.panels() {
+            for path in self.paths(panel) {
+                let label = self.label(panel[0], path[0]);
+                if !labels.contains(&label) {
+                    labels.push(label);
+                }
+            }
+        }
+        labels
+    }
+
+    /// Rows with result `result` that differ in parameter `i` alone, by its values.
+    fn paths(&self, [i, result]: [usize; 2]) -> Vec<Vec<usize>> {
+        let mut paths: Vec<(String, Vec<usize>)> = Vec::new();
         let own = &self.parameters[i].1;
         let values = &self.results[result].values;
         let shown = |row: &usize| own[*row].is_finite() && values[*row].is_finite();
         for row in (0..values.len()).filter(shown) {
-            let same = |(_, path): &&mut (usize, Vec<usize>)| others(path[0]) == others(row);
-            match paths.iter_mut().find(same) {
+            let label = self.label(i, row);
+            match paths.iter_mut().find(|(other, _)| *other == label) {
                 Some((_, path)) => path.push(row),
-                None => {
-                    let kind = kinds.iter().position(|kind| *kind == self.words[row]);
-                    paths.push((kind.unwrap_or(0), vec![row]));
-                }
+                None => paths.push((label, vec![row])),
             }
         }
         for (_, path) in &mut paths {
             path.sort_by(|a, b| own[*a].total_cmp(&own[*b]));
         }
-        paths
+        paths.into_iter().map(|(_, path)| path).collect()
     }
+}
+
+/// Largest pressure of the clamp in each row, Pa, where it is a parameter; else NaN.
+fn limits(table: &Table, rows: usize) -> Vec<f64> {
+    let limit = |header: &str| {
+        let unit = header.strip_prefix("clamp.max_pressure")?.replace('_', " ");
+        let cells = table.texts(header).ok()?.into_iter();
+        let si = |cell: &str| units::si::<Pressure>(&format!("{cell}{unit}"));
+        Some(cells.map(|cell| si(cell).unwrap_or(f64::NAN)).collect())
+    };
+    let found = table.headers().iter().find_map(limit);
+    found.unwrap_or_else(|| vec![f64::NAN; rows])
 }
 
 fn varies(numbers: &[f64]) -> bool {

@@ -1,6 +1,6 @@
 //! The figure of shear rates against time.
 
-use crate::axes::{Axis, DECADES, NORMAL, extent};
+use crate::axes::{Axis, NORMAL, extent};
 use crate::closing::time_unit;
 use crate::colour::{BLACK, faded, series};
 use crate::drawing::{Anchor, Drawing, Point};
@@ -10,6 +10,7 @@ use crate::measure::{self, LINE};
 use crate::page::Page;
 use crate::panels::MARGIN;
 use crate::penetration::LONG;
+use crate::plot::LEAST;
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -48,7 +49,7 @@ pub fn shear_rates(runs: &[Labelled], page: Page) -> Result<Drawing, Error> {
     let panels = runs.iter().map(Panel::read);
     let panels = panels.collect::<Result<Vec<_>, _>>()?;
     let rates = || panels.iter().flat_map(Panel::rates).copied();
-    let rate = |title| Axis::logarithmic(title, rates(), DECADES);
+    let rate = |title| Axis::logarithmic(title, rates());
     let (titled, untitled) = (rate("shear rate (1/s)"), rate(""));
     let outer = room_beside(&titled, PANEL[1]) + 4.0;
     let between = BETWEEN + room_beside(&untitled, PANEL[1]);
@@ -129,10 +130,11 @@ impl Panel {
     /// Its axis and the unit of time, s.
     fn time_axis(&self) -> (Axis, f64) {
         let (unit, name) = time_unit(extent(self.time.iter().copied()).1);
-        let times = || self.time.iter().map(|t| t / unit).filter(|t| *t > 0.0);
-        let ((first, last), title) = (extent(times()), format!("time ({name})"));
+        let times = || self.time.iter().map(|t| t / unit);
+        let (first, last) = extent(times().filter(|t| *t > 0.0));
+        let title = format!("time ({name})");
         let axis = match last > LONG * first {
-            true => Axis::logarithmic(&title, times(), f64::INFINITY),
+            true => Axis::logarithmic(&title, times()),
             false => Axis::over(&title, 0.0, last),
         };
         (axis, unit)
@@ -147,8 +149,8 @@ impl Panel {
         let places = |values: &[f64], shown: &[f64]| -> Vec<[f64; 2]> {
             let rows = times.clone().zip(values).zip(shown);
             let rows = rows.filter(|(_, shown)| **shown > 0.0);
-            rows.map(|((t, v), _)| frame.place(&time, rate, [t, *v]))
-                .collect()
+            let places = rows.map(|((t, v), _)| frame.place(&time, rate, [t, v.max(LEAST)]));
+            places.filter(|place| place[0].is_finite()).collect()
         };
         let line = |values: &[f64]| places(values, values);
         for (low, high, _, opacity) in BANDS {

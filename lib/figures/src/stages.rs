@@ -62,7 +62,9 @@ pub(crate) fn draw(
 ) {
     let mut free = frames[0].left;
     for stage in stages {
-        let x = frames[0].left + time.share(stage.begin_s / unit) * frames[0].width;
+        // The first begins at zero, which has no logarithm.
+        let share = time.share(stage.begin_s / unit).max(0.0);
+        let x = frames[0].left + share * frames[0].width;
         for frame in frames {
             let ends = [[x, frame.top], [x, frame.bottom()]];
             drawing.line(ends.to_vec(), faded(colour, SHADE), 1.0);

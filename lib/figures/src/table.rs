@@ -5,7 +5,7 @@ use std::path::Path;
 use csv::StringRecord;
 use particle_file::read_table;
 
-use crate::Error;
+use crate::{Error, check_origin};
 
 /// Bytes of a row and of a cell: records of the csv crate, 195 bytes a row of three cells, and the numbers
 /// of the columns that are drawn.
@@ -22,8 +22,9 @@ impl Table {
     /// Reads a table; lines that begin with `#` are no rows.
     ///
     /// # Errors
-    /// [`Error::Data`] for an unreadable file, or one that is no table with at least one row.
+    /// [`Error::Data`] for an unreadable file, or one that is no table with at least one row; those of [`check_origin`].
     pub fn read(path: &Path) -> Result<Self, Error> {
+        check_origin(path)?;
         let name = path.display().to_string();
         let unreadable = |e| Error::Data(format!("cannot read '{name}': {e}"));
         let text = read_table(path, RECORD).map_err(unreadable)?;

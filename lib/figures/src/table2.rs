@@ -3,11 +3,8 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use particle_file::ParticleFile;
-use serde_json::Value;
-
 use crate::known::{SIDES, pressure_limit};
-use crate::run_end::{case_beside, small_text};
+use crate::run_end::case_beside;
 use crate::table::Table;
 use crate::{Error, Known, RunEnd};
 
@@ -262,38 +259,10 @@ fn end(table: &Path, named: &str) -> Result<Option<(RunEnd, f64)>, Error> {
     }
     for place in [table, state] {
         if let Some(end) = RunEnd::beside(place)? {
-            is_of(table, named, &place.with_file_name(FINAL))?;
             return Ok(Some((end, pressure_limit(&case_beside(place)))));
         }
     }
     Ok(None)
-}
-
-/// Refuses a table in which `named` was measured if the record beside the table has another content of it than `state`
-/// has now: a run that was made again. Of tables without a record that is not known.
-fn is_of(table: &Path, named: &str, state: &Path) -> Result<(), Error> {
-    let Some(hash) = recorded(table, named).filter(|_| state.is_file()) else {
-        return Ok(());
-    };
-    let now = ParticleFile::open(state)?.content_hash();
-    match hash == format!("{now:016x}") {
-        true => Ok(()),
-        false => Err(Error::Data(format!(
-            "'{}' does not belong to the present '{}': run wp-metrics again",
-            table.display(),
-            state.display()
-        ))),
-    }
-}
-
-/// The hash of the file `named` by the record of a table.
-fn recorded(table: &Path, named: &str) -> Option<String> {
-    let mut record = table.to_owned().into_os_string();
-    record.push(".provenance.json");
-    let record: Value = serde_json::from_str(&small_text(record.as_ref()).ok()?).ok()?;
-    let mut inputs = record.get("inputs")?.as_array()?.iter();
-    let input = inputs.find(|input| input["path"] == named)?;
-    input["xxh3"].as_str().map(str::to_owned)
 }
 
 /// A cell of a number.

@@ -37,7 +37,7 @@ impl Permeability {
 
 /// Permeability along `axis` (0 to 2) of the open voxels of `solid`, full of liquid that sticks to the walls. The specimen and
 /// its mirror image alternate along the axis, so both sides have constant pressure and normal flow. The other `sides` are
-/// mirrors or periodic. The last layer of an odd number of voxels is left out.
+/// mirrors or periodic.
 ///
 /// Darcy: flux over area = permeability x pressure difference/(viscosity x length). 0 where no open voxels connect the sides.
 ///
@@ -61,13 +61,14 @@ pub fn permeability(
             ["x", "y", "z"][a]
         ));
     }
-    let [fine, coarse] = [1, 2].map(|k| Through::new(solid, axis, sides, k));
+    let fine = Through::new(solid, axis, sides, 1);
+    let coarse = Through::new(&even(solid, axis, sides), axis, sides, 2);
     let m2 = edge.powi(2);
     let volume = |weight: &dyn Fn(usize) -> f64| -> f64 {
         let pores = 0..fine.mesh.pores.len();
         pores
-            .map(|pore| weight(pore) * fine.mesh.volume(pore))
-            .sum()
+            // A sum of nothing is -0.
+            .fold(0.0, |sum, pore| sum + weight(pore) * fine.mesh.volume(pore))
     };
     let (open, through) = (volume(&|_| 1.0), volume(&|pore| fine.fractions[pore]));
     Ok(Permeability {
@@ -76,6 +77,21 @@ pub fn permeability(
         coarse_m2: 4.0 * coarse.squares()? * m2,
         porosity: open / fine.cells(),
         through: if open > 0.0 { through / open } else { 0.0 },
+    })
+}
+
+/// The specimen, with its image beside it along axes of an odd number of voxels, which cells of two do not fill: mirrored, or
+/// repeated where it is periodic. The flow is the same.
+fn even(solid: &VoxelBlock, axis: usize, sides: Boundary) -> VoxelBlock {
+    let dims = solid.dims();
+    let at = |a: usize, i: usize| match i.checked_sub(dims[a]) {
+        None => i,
+        Some(i) if a != axis && sides == Boundary::Periodic => i,
+        Some(i) => dims[a] - 1 - i,
+    };
+    let size = dims.map(|n| n * (1 + n % 2));
+    VoxelBlock::from_fn(solid.origin(), solid.voxel(), size, |x, y, z| {
+        solid.solid(at(0, x), at(1, y), at(2, z))
     })
 }
 
@@ -90,8 +106,7 @@ struct Through {
 
 impl Through {
     fn new(solid: &VoxelBlock, axis: usize, sides: Boundary, k: usize) -> Self {
-        // An even number of voxels, so that both cell sizes cover the same ones.
-        let size = solid.dims().map(|n| n / 2 * 2 / k);
+        let size = solid.dims().map(|n| n / k);
         let lattice = Lattice::of_voxels(solid, k, size, axis, sides);
         let rows = lattice.rows();
         let mesh = Mesh::whole(&lattice, rows, 0..rows.len());

@@ -19,6 +19,9 @@ pub struct Agreement {
     pub map_correlation: f64,
 }
 
+/// Dice coefficient of the wood of a specimen that was segmented twice, at least.
+const SAME_WOOD: f64 = 0.9;
+
 /// Compares a state with the experiment that its wood comes from.
 ///
 /// Each side is compared in the frame of its adherend: liquid on the top side is moved back with the top adherend by the
@@ -27,7 +30,7 @@ pub struct Agreement {
 /// each about its own mid-plane. A bond trimmed to whole cells is compared over its own width.
 ///
 /// # Errors
-/// States with different voxels, and the errors of [`Datum::find`].
+/// States with different voxels or other wood, and the errors of [`Datum::find`].
 pub fn compare(state: &State, experiment: &State) -> Result<[Agreement; 3], Error> {
     let (Wood::Whole(wood), Adhesive::Voxels(adhesive)) = (experiment.wood, experiment.adhesive)
     else {
@@ -36,6 +39,12 @@ pub fn compare(state: &State, experiment: &State) -> Result<[Agreement; 3], Erro
         ));
     };
     same_voxels(state, experiment)?;
+    let agreement = wood_dice(state, wood);
+    if agreement < SAME_WOOD {
+        return Err(Error::Usage(format!(
+            "its wood is not that of the experiment: their Dice coefficient is {agreement:.3}, below {SAME_WOOD}"
+        )));
+    }
     let ours = Datum::find(Reference::Mid, state)?;
     let theirs = Datum::find(Reference::Mid, experiment)?;
     let [bottom, top] = [Side::Bottom, Side::Top]
@@ -59,7 +68,10 @@ fn same_voxels(state: &State, experiment: &State) -> Result<(), Error> {
     let fits = state.normal == experiment.normal
         && same(1e3 * state.voxel_m, 1e3 * experiment.voxel_m)
         && (0..2).all(|a| same(ours.min_m[a], theirs.min_m[a]))
-        && (0..2).all(|a| ours.columns[a] <= theirs.columns[a])
+        && (0..2).all(|a| match state.wood {
+            Wood::Parted { .. } => ours.columns[a] <= theirs.columns[a],
+            _ => ours.columns[a] == theirs.columns[a],
+        })
         && layers(state) == layers(experiment);
     if fits {
         return Ok(());
@@ -75,10 +87,36 @@ fn same_voxels(state: &State, experiment: &State) -> Result<(), Error> {
         )
     };
     Err(Error::Usage(format!(
-        "it has {} but the experiment {}: the specimen that the bond was built from is needed",
+        "it has {} but the experiment {}: the specimen that the bond was built from, or one of the same shape, is needed",
         describe(state),
         describe(experiment)
     )))
+}
+
+/// Dice coefficient of the wood of a state, its adherends put back together, and of a specimen, over the width of the state.
+fn wood_dice(state: &State, specimen: PlacedVoxels) -> f64 {
+    let (n, dims) = (state.normal.index(), specimen.bits.dims());
+    let (mut common, mut ours, mut begin, mut reach) = (0_u64, 0_u64, 0, dims);
+    for block in state.wood_blocks() {
+        block.bits.for_each(|mut at| {
+            at[n] += begin;
+            ours += 1;
+            let inside = (0..3).all(|a| at[a] < dims[a]);
+            common += u64::from(inside && specimen.bits.get(at[0], at[1], at[2]));
+        });
+        begin += block.bits.dims()[n];
+        reach = std::array::from_fn(|a| {
+            if a == n {
+                dims[a]
+            } else {
+                block.bits.dims()[a]
+            }
+        });
+    }
+    let mut theirs = 0_u64;
+    let within = |at: [usize; 3]| (0..3).all(|a| at[a] < reach[a]);
+    (specimen.bits).for_each(|at| theirs += u64::from(within(at)));
+    2.0 * common as f64 / (ours + theirs) as f64
 }
 
 /// Layers of voxels along the normal, both adherends together.

@@ -2,13 +2,14 @@
 
 use std::{fmt, io};
 
-/// Why a particle file cannot be used; every case is exit status 3.
+/// Why a particle file cannot be used: exit status 3, or 2 where [`Error::is_usage`].
 #[derive(Debug)]
 pub struct Error {
     /// As the user named it, "standard input" for `-`.
     file: String,
     what: String,
     unreadable: bool,
+    usage: bool,
 }
 
 impl Error {
@@ -19,7 +20,21 @@ impl Error {
             file: file.into(),
             what: what.into(),
             unreadable: false,
+            usage: false,
         }
+    }
+
+    /// Of a sound file that does not go with the others.
+    pub(crate) fn misplaced(file: String, what: String) -> Self {
+        Self {
+            usage: true,
+            ..Self::new(file, what)
+        }
+    }
+
+    /// Whether another choice of files would do.
+    pub fn is_usage(&self) -> bool {
+        self.usage
     }
 
     /// Of a file that the system refuses to read.
@@ -28,6 +43,7 @@ impl Error {
             file,
             what: reason.to_string(),
             unreadable: true,
+            usage: false,
         }
     }
 

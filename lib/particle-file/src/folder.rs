@@ -3,17 +3,23 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{Error, ParticleFile};
+use crate::{Error, Kind, ParticleFile};
 
 /// Marks a folder as a run's.
 pub const RUN_MARK: &str = "bondline-run.toml";
+
+/// Attribute of a state: what identifies its run.
+pub const IDENTITY: &str = "identity";
 
 /// The particle files in a folder, by name; none where there is no such folder. Hidden ones are passed over.
 pub fn in_folder(folder: &Path) -> Vec<PathBuf> {
     let list = fs::read_dir(folder).into_iter().flatten();
     let shown = |path: &Path| {
         let name = path.file_name().unwrap_or_default();
-        !name.as_encoded_bytes().starts_with(b".") && path.extension().is_some_and(|e| e == "mpts")
+        !name.as_encoded_bytes().starts_with(b".")
+            && path
+                .extension()
+                .is_some_and(|e| e.eq_ignore_ascii_case("mpts"))
     };
     let paths = list.filter_map(|entry| Some(entry.ok()?.path()));
     let mut found: Vec<PathBuf> = paths.filter(|path| shown(path)).collect();
@@ -50,14 +56,45 @@ fn lacks(folder: &Path, what: &str) -> Error {
     Error::new(folder.display().to_string(), why)
 }
 
-/// Particle files in order of their times, one of each: the last snapshot may be the final state.
-pub fn by_time(files: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
-    let timed = files.into_iter().map(|path| {
-        let time_s = ParticleFile::open(&path)?.header().time_s;
-        Ok((time_s, path))
+/// A run's states, opened, in order of their times, each once: the last snapshot may be the final state. Beside them there may be
+/// what the run began with, at no time.
+///
+/// # Errors
+/// A file that cannot be read; states of two runs, which may lie at the same times.
+pub fn by_time(files: Vec<PathBuf>) -> Result<Vec<(PathBuf, ParticleFile)>, Error> {
+    let opened = files.into_iter().map(|path| {
+        let file = ParticleFile::open(&path)?;
+        Ok((path, file))
     });
-    let mut timed = timed.collect::<Result<Vec<_>, Error>>()?;
-    timed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    timed.dedup_by(|a, b| a.0 == b.0);
-    Ok(timed.into_iter().map(|(_, path)| path).collect())
+    let mut files = opened.collect::<Result<Vec<_>, Error>>()?;
+    let (states, others): (Vec<_>, Vec<_>) =
+        (files.iter()).partition(|(_, file)| file.header().kind == Kind::State);
+    for group in [&states, &others] {
+        let odd = group.iter().find(|file| !same_run(file, group[0]));
+        if let Some((path, _)) = odd {
+            let what = format!(
+                "is of another run than '{}': a series is of one run",
+                group[0].0.display()
+            );
+            return Err(Error::misplaced(path.display().to_string(), what));
+        }
+    }
+    files.sort_by(|(_, a), (_, b)| a.header().time_s.total_cmp(&b.header().time_s));
+    files.dedup_by(|(_, a), (_, b)| a.header().time_s == b.header().time_s);
+    Ok(files)
+}
+
+/// Whether two states are of one run, by its folder or by what they say of it: a run that went on with another version or
+/// Courant number says something else since. Files that are no states are of one run if they are the same.
+fn same_run((a, one): &(PathBuf, ParticleFile), (b, other): &(PathBuf, ParticleFile)) -> bool {
+    if one.header().kind != Kind::State {
+        return one.content_hash() == other.content_hash();
+    }
+    let folder = |path: &Path| {
+        let path = fs::canonicalize(path).ok()?;
+        let mut above = path.ancestors().skip(1).take(2).map(Path::to_owned);
+        above.find(|folder| folder.join(RUN_MARK).is_file())
+    };
+    let run = |file: &ParticleFile| file.header().attribute(IDENTITY).map(str::to_owned);
+    run(one) == run(other) || folder(a).is_some_and(|at| Some(at) == folder(b))
 }

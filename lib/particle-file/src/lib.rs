@@ -40,7 +40,7 @@ mod write;
 
 pub use bits::{BitGrid, Bits, BitsRef};
 pub use error::Error;
-pub use folder::{RUN_MARK, by_time, file_of_run, in_folder, states_of_run};
+pub use folder::{IDENTITY, RUN_MARK, by_time, file_of_run, in_folder, states_of_run};
 pub use header::{Block, Header, Kind, Material, Provenance};
 pub use map::Mapped;
 pub use read::{ParticleFile, Value};

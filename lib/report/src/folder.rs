@@ -13,9 +13,17 @@ const MOST_BYTES: u64 = 1 << 20;
 /// How far the table beside a run may be from what the run says of itself: else it is another state's.
 const SAME: f64 = 1e-3;
 
-/// What a state is called; the share of its adhesive that entered the wood, %, and the mean depth of that, um; WP of its
-/// bottom, its top and in total, um.
-pub type Measured = (String, [String; 2], [Known; 3]);
+/// A measured specimen.
+pub struct Measured {
+    /// What it is called.
+    pub(crate) label: String,
+    /// Share of its adhesive that entered the wood, %, and the mean depth of that, um.
+    pub(crate) entered: [String; 2],
+    /// WP of its bottom, its top and in total, um.
+    pub(crate) wp: [Known; 3],
+    /// Hashes of the files that it was measured in.
+    content: Vec<String>,
+}
 
 /// A run folder.
 pub struct RunFolder {
@@ -33,6 +41,8 @@ pub struct RunFolder {
     pub(crate) limit: f64,
     /// What is odd about its voxels.
     pub(crate) voxel_doubts: Vec<String>,
+    /// Hashes of the files that its bond was made from.
+    made_of: Vec<String>,
 }
 
 impl RunFolder {
@@ -71,8 +81,12 @@ impl RunFolder {
             }
         }
         let state = ParticleFile::open(folder.path.join("final.mpts")).ok();
+        let made = state.iter().flat_map(|state| &state.header().provenance);
+        let made_of =
+            made.flat_map(|made| made.inputs.iter().map(|(_, hash)| format!("{hash:016x}")));
         Ok(Self {
             label: folder.label.clone(),
+            made_of: made_of.collect(),
             voxel_doubts: state.map_or(Vec::new(), |state| {
                 let doubts = [
                     voxels::doubt_of_file(state.header()),
@@ -92,6 +106,14 @@ impl RunFolder {
 
     /// Files of a run's folder that a page is made of, as far as they are there.
     pub const FILES: [&str; 4] = ["summary.json", "resolved.toml", "wp.csv", "final.mpts"];
+
+    /// Whether its bond was made from this specimen.
+    pub(crate) fn is_of(&self, experiment: &Measured) -> bool {
+        experiment
+            .content
+            .iter()
+            .any(|hash| self.made_of.contains(hash))
+    }
 
     /// Whether adhesive came to the end of the specimen.
     pub(crate) fn outer_face_reached(&self) -> bool {
@@ -140,13 +162,12 @@ impl RunFolder {
     }
 
     /// Columns of the table of all runs, and its row.
-    pub(crate) fn row(&self) -> [(&'static str, String); 11] {
+    pub(crate) fn row(&self) -> [(&'static str, String); 10] {
         let sound = match self.end.sound {
             true => "sound",
             false if self.end.end == "not-ended" => "not known",
             false => "not sound",
         };
-        let pressure = self.number("/final_pressure_pa", 1e-6, 3);
         let volume = self.number("/invariants/volume_change", 100.0, 3);
         let deepest = self.number("/invariants/deepest_m", 1e6, 3);
         let memory = self.number("/peak_memory_bytes", 1e-6, 0);
@@ -157,7 +178,6 @@ impl RunFolder {
             ("steps", self.text("/steps")),
             ("simulated", self.time()),
             ("gap left (um)", self.number("/gap_m", 1e6, 2)),
-            ("pressure at the end (MPa)", pressure),
             ("volume change (%)", volume),
             ("deepest point in wood (um)", deepest),
             ("CPU (s)", self.number("/cpu_s", 1.0, 1)),
@@ -268,9 +288,15 @@ impl RunFolder {
 pub fn measured(file: &Labelled) -> Result<Measured, Error> {
     let table = Table::read(&file.path)?;
     let [bottom, top, total, ..] = Known::read(&table)?;
-    let entered = [("entered_share", 100.0, 1), ("mean_depth_um", 1.0, 2)]
-        .map(|(column, unit, decimals)| number(&table.in_total(column).into(), unit, decimals));
-    Ok((file.label.clone(), entered, [bottom, top, total]))
+    let (_, inputs) = figures::record(&file.path).unwrap_or_default();
+    Ok(Measured {
+        label: file.label.clone(),
+        entered: [("entered_share", 100.0, 1), ("mean_depth_um", 1.0, 2)].map(
+            |(column, unit, decimals)| number(&table.in_total(column).into(), unit, decimals),
+        ),
+        wp: [bottom, top, total],
+        content: inputs.into_iter().map(|(_, hash)| hash).collect(),
+    })
 }
 
 /// A number times `unit`, with so many decimals.

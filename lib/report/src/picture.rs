@@ -1,6 +1,6 @@
 //! Pictures as `bond-figures` draws them, put into the page as they are.
 
-use figures::base64;
+use figures::{base64, check_origin};
 
 use crate::html::escape;
 use crate::{Error, Labelled, read};
@@ -11,8 +11,9 @@ const MOST_BYTES: u64 = 16 << 20;
 /// An SVG or PNG picture as HTML. As an image an SVG runs no script and loads nothing.
 ///
 /// # Errors
-/// An unreadable file, or one that is neither SVG nor PNG.
+/// An unreadable file, or one that is neither SVG nor PNG; those of [`check_origin`].
 pub fn picture(file: &Labelled) -> Result<String, Error> {
+    check_origin(&file.path)?;
     let bytes = read(&file.path, MOST_BYTES)?;
     let begins = |with: &[u8]| bytes.trim_ascii_start().starts_with(with);
     let kind = match () {

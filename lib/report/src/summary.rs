@@ -24,7 +24,7 @@ pub(crate) fn write(report: &Report) -> String {
     let penetration = penetration(&report.experiments, runs);
     match runs {
         [] => penetration + &pictures,
-        runs => pressed(runs) + &penetration + &pictures + &doubts(runs),
+        runs => pressed(runs) + &penetration + &pictures + &doubts(runs, &report.experiments),
     }
 }
 
@@ -59,9 +59,10 @@ fn pressed(runs: &[RunFolder]) -> String {
 
 fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
     let wp = |known: &[Known; 3]| known.map(|known| known.told(2).join(" \u{b1} "));
-    let experiment = |(label, entered, known): &Measured| {
+    let experiment = |measured: &Measured| {
         let nothing = ["-", "-"].map(String::from);
-        [&[label.clone()][..], entered, &wp(known), &nothing].concat()
+        let label = std::slice::from_ref(&measured.label);
+        [label, &measured.entered, &wp(&measured.wp), &nothing].concat()
     };
     let run = |run: &RunFolder| {
         let pressure = run.pressure.told_pressure(2, " \u{b1} ", run.limit);
@@ -116,7 +117,18 @@ fn best_of<'a>(runs: &'a [RunFolder], run: &RunFolder) -> Option<(&'a str, f64)>
     Some((&best.label, best.wp[2].best()))
 }
 
-fn doubts(runs: &[RunFolder]) -> String {
+/// By how much the total WP of a run, um, differs from another.
+fn apart(run: &RunFolder, wp: f64, label: &str, other: f64) -> String {
+    let by = wp - other;
+    let share = signed(100.0 * by / other, 0);
+    format!(
+        "{} by {} um ({share} %) from {label}",
+        run.label,
+        signed(by, 2)
+    )
+}
+
+fn doubts(runs: &[RunFolder], experiments: &[Measured]) -> String {
     let mut items = Vec::new();
     for run in runs {
         if let Some(advice) = run.end.advice() {
@@ -174,24 +186,33 @@ fn doubts(runs: &[RunFolder]) -> String {
         "The error due to the cell size is not known (wp-metrics --finer computes it)",
         &|run| !run.wp[2].has_error() && best_of(runs, run).is_none(),
     );
-    let off = runs.iter().filter_map(|run| {
-        let (label, best) = best_of(runs, run)?;
-        let by = run.wp[2].as_run - best;
-        let share = signed(100.0 * by / best, 0);
-        let by = signed(by, 2);
-        Some(format!("{} by {by} um ({share} %) from {label}", run.label))
-    });
-    let off: Vec<String> = off.collect();
-    if !off.is_empty() {
-        let off = escape(&off.join("; "));
-        items.push(format!(
-            "Total WP that is not extrapolated differs from that of the same press: {off}."
-        ));
-    }
-    items.push(
-        "How well the schemes predict a real bond line is not known: no scan of one was available."
-            .into(),
+    let measured = |run: &RunFolder| experiments.iter().find(|experiment| run.is_of(experiment));
+    say(
+        "How well a real bond line is predicted is not told: no measurement of the specimen is on this page (--experiment)",
+        &|run| measured(run).is_none(),
     );
+    let from_best = runs.iter().filter_map(|run| {
+        let (label, best) = best_of(runs, run)?;
+        Some(apart(run, run.wp[2].as_run, label, best))
+    });
+    let from_measured = runs.iter().filter_map(|run| {
+        let of = measured(run).filter(|_| run.wp[2].best().is_finite())?;
+        Some(apart(run, run.wp[2].best(), &of.label, of.wp[2].best()))
+    });
+    for (said, off) in [
+        (
+            "Total WP that is not extrapolated differs from that of the same press",
+            from_best.collect::<Vec<_>>(),
+        ),
+        (
+            "Total WP differs from that measured in the specimen",
+            from_measured.collect(),
+        ),
+    ] {
+        if !off.is_empty() {
+            items.push(escape(&format!("{said}: {}.", off.join("; "))));
+        }
+    }
     let items = items.iter().map(|item| format!("<li>{item}</li>\n"));
     let items: String = items.collect();
     format!("<h3>Limitations</h3>\n<ul class=\"doubts\">\n{items}</ul>\n")

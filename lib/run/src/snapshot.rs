@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use particle_file::{BitsRef, Block, Draft, Header, Kind, ParticleFile, Provenance};
+use particle_file::{BitsRef, Block, Draft, Header, IDENTITY, Kind, ParticleFile, Provenance};
 use physics::{Choice, LiquidState, Scheme};
 use units::Axis;
 
@@ -11,7 +11,6 @@ use crate::failure::RunFailure;
 use crate::folder::{FINAL, RunFolder, snapshot_name};
 use crate::resolve::{Setup, swap};
 
-const IDENTITY: &str = "identity";
 /// Attribute: pressure on the upper body in the last step, Pa.
 const PRESSURE: &str = "pressure_pa";
 /// Attribute: travel left until the clamp has closed the bond, m; in a bond file the whole travel.

@@ -73,8 +73,9 @@ impl Inputs {
         Ok(inputs)
     }
 
-    /// The same with a mark on labels of files of runs that have not closed or are not sound.
+    /// The same with labels that differ, and a mark on those of files of runs that have not closed or are not sound.
     pub(crate) fn marked(mut self) -> Result<Self, Failure> {
+        Labelled::tell_apart(&mut self.files);
         let marked = self.files.into_iter().map(Labelled::marked);
         self.files = marked.collect::<Result<_, _>>().map_err(Failure::data)?;
         Ok(self)

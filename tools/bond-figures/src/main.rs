@@ -34,7 +34,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             title,
             picture,
         } => {
-            let runs = run.len();
+            let (runs, mut run) = (run.len(), run);
+            // A finer run has the label of its run.
+            if finer.is_empty() {
+                Labelled::tell_apart(&mut run);
+            }
             let inputs = Inputs::of_runs([run, finer].concat())?;
             drawn(&inputs, &picture, |files, page| {
                 let (run, finer) = files.split_at(runs);
@@ -55,9 +59,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
                 penetrations(files, show)?.draw(page)
             })
         }
-        Figure::Pores { files, picture } => drawn(&Inputs::new(files)?, &picture, |files, page| {
-            pores(files)?.draw(page)
-        }),
+        Figure::Pores { files, picture } => {
+            drawn(&Inputs::new(files)?.marked()?, &picture, |files, page| {
+                pores(files)?.draw(page)
+            })
+        }
         Figure::Response {
             sweep,
             result,
@@ -124,12 +130,13 @@ fn movie(a: &MovieArgs) -> Result<(), Failure> {
     let states = states_of_run(&a.run.path)
         .and_then(by_time)
         .map_err(Failure::data)?;
-    let named = states.into_iter().map(|path| Labelled {
+    let named = states.into_iter().map(|(path, _)| Labelled {
         label: a.run.label.clone(),
         path,
     });
     let inputs = Inputs::new(named.collect())?;
     inputs.keep_from([&a.output])?;
+    warn_of([a.run.label.as_str()].into_iter());
     let (wood, from) = (a.look.wood, a.look.from());
     let (count, mut progress) = (inputs.files().len(), Progress::new("drawing the movie"));
     let on_frame = |done| {
@@ -181,11 +188,25 @@ fn table2(a: &Table2Args) -> Result<(), Failure> {
 
 /// Writes the picture to each of its outputs.
 fn write(drawing: &Drawing, targets: &[Target], record: &Record) -> Result<(), Failure> {
+    if targets.iter().any(|target| !target.keeps_text) {
+        let boxes = drawing.text_boxes();
+        warn_of(boxes.iter().map(|one| one.text.as_str()));
+    }
     for target in targets {
         let bytes = (target.render)(drawing).map_err(failure)?;
         (target.output).write_with_record(record, |out| out.write_all(&bytes))?;
     }
     Ok(())
+}
+
+/// Says which characters a PNG or PDF does not show.
+fn warn_of<'a>(texts: impl Iterator<Item = &'a str>) {
+    let missing = figures::undrawn(texts);
+    if !missing.is_empty() {
+        cli::warn(format_args!(
+            "the font of PNG and PDF does not show '{missing}': boxes, or letters that stand alone, are in their place; an SVG keeps the text"
+        ));
+    }
 }
 
 fn failure(error: Error) -> Failure {

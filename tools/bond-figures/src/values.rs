@@ -23,13 +23,14 @@ where
 pub(crate) struct Target {
     pub(crate) output: Output,
     pub(crate) render: Render,
+    /// Whether text stays text that the viewer draws.
+    pub(crate) keeps_text: bool,
 }
 
 type Render = fn(&Drawing) -> Result<Vec<u8>, Error>;
 
-const SVG: Render = |drawing| drawing.to_svg().map(String::into_bytes);
 const FORMATS: [(&str, Render); 3] = [
-    ("svg", SVG),
+    ("svg", |drawing| drawing.to_svg().map(String::into_bytes)),
     ("png", Drawing::to_png),
     ("pdf", Drawing::to_pdf),
 ];
@@ -42,13 +43,18 @@ impl Target {
                 .iter()
                 .find(|(name, _)| end.eq_ignore_ascii_case(name))
         };
-        let render = match &output {
-            Output::Stdout => Some(SVG),
-            Output::File(path) => path.extension().and_then(named).map(|(_, render)| *render),
+        let format = match &output {
+            Output::Stdout => Some(&FORMATS[0]),
+            Output::File(path) => path.extension().and_then(named),
         };
         let wrong = "is not a picture name: it must end in .svg, .png or .pdf";
-        let render = render.ok_or_else(|| format!("{output} {wrong}"))?;
-        Ok(Self { output, render })
+        let (name, render) = format.ok_or_else(|| format!("{output} {wrong}"))?;
+        let keeps_text = *name == FORMATS[0].0;
+        Ok(Self {
+            output,
+            render: *render,
+            keeps_text,
+        })
     }
 
     /// As [`Target::new`], but no standard output.

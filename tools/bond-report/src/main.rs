@@ -64,10 +64,14 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         ));
     }
     cli::keep_apart_with_records(inputs.iter().map(PathBuf::as_path), [&arguments.output])?;
+    let (mut runs, mut experiments) = (arguments.run, arguments.experiment);
+    for labels in [&mut runs, &mut experiments] {
+        Labelled::tell_apart(labels);
+    }
     let mut report = Report {
         title: arguments.title,
-        experiments: all(&arguments.experiment, measured)?,
-        runs: all(&arguments.run, RunFolder::read)?,
+        experiments: all(&experiments, measured)?,
+        runs: all(&runs, RunFolder::read)?,
         tables: all(&arguments.table, table)?,
         pictures: all(&arguments.picture, picture)?,
         scenes: all(&arguments.state, scene)?,

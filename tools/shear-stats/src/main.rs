@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use cli::{Failure, InputRecord, Output, Record};
 use metrics::{Convention, ShearRates, table, tube_shear_rate};
-use particle_file::ParticleFile;
+use particle_file::by_time;
 use units::{Length, Speed, positive};
 
 /// Distribution of shear rates in the adhesive, weighted by volume
@@ -21,7 +21,7 @@ use units::{Length, Speed, positive};
   shear-stats --tube '1 m/s,50 um'"
 )]
 struct Arguments {
-    /// Snapshots of a run; `-` is standard input
+    /// Snapshots of one run, in any order, each counted once; `-` is standard input
     #[arg(required_unless_present = "tube")]
     snapshots: Vec<PathBuf>,
     /// Convert to 2|dev D| (paper) or sqrt(2 D:D) (rheometer) [default: as stored]
@@ -63,8 +63,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     cli::keep_apart_with_records(read, [&arguments.output])?;
     let mut states = Vec::new();
     let mut inputs = Vec::new();
-    for path in &arguments.snapshots {
-        let file = ParticleFile::open(path).map_err(Failure::data)?;
+    let snapshots = by_time(arguments.snapshots).map_err(|e| Failure::of_input(e.is_usage(), e))?;
+    for (path, file) in snapshots {
         let rates = ShearRates::of_file(&file, arguments.convention).map_err(|error| {
             Failure::of_input(error.is_usage(), format!("'{}': {error}", path.display()))
         })?;

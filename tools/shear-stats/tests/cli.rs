@@ -52,6 +52,21 @@ fn rates_are_converted_and_the_file_has_a_record() {
     assert!(record.contains("0000.mpts"), "{record}");
 }
 
+/// States of two runs may lie at the same times, and the last snapshot is the final state.
+#[test]
+fn states_are_of_one_run_and_count_once() {
+    let bench = bench();
+    let told = bench.run("0001.mpts 0000.mpts 0001.mpts").output();
+    assert_eq!(told, bench.run("0000.mpts 0001.mpts").output());
+    let mut header = Header::new(Kind::State, 1e-6, 1, [0.0; 3], [1e-5; 3]);
+    header.set_attribute(particle_file::IDENTITY, "another");
+    let draft = Draft::new(header).column("volume", 1, &[2e-18_f32]);
+    bench.write_particles("other.mpts", &draft.column("shear_rate", 1, &[1.0_f32]));
+    bench
+        .run("0001.mpts other.mpts")
+        .refused(2, "'other.mpts' is of another run than '0001.mpts'");
+}
+
 #[test]
 fn a_tube_alone_and_beside_a_table() {
     let bench = bench();

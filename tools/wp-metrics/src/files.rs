@@ -27,7 +27,8 @@ pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
             false => states.push(path.clone()),
         }
     }
-    by_time(states).map_err(Failure::data)
+    let states = by_time(states).map_err(|e| Failure::of_input(e.is_usage(), e))?;
+    Ok(states.into_iter().map(|(path, _)| path).collect())
 }
 
 /// A file or a folder of slices itself, the last state of a run, or the particle files of a folder of those.

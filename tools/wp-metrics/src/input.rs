@@ -59,13 +59,20 @@ impl Input {
         Ok(Self { name, content })
     }
 
-    /// What it shows; `normal` overrides the file's own axis across the bond.
+    /// What it shows; `normal` overrides the axis across the bond of a specimen. A bond and what was pressed of it have their own.
     pub fn state(&self, normal: Option<Axis>) -> Result<State<'_>, Failure> {
         match &self.content {
             Content::Particles(file) => {
                 let mut state = State::of_file(file).map_err(|e| self.failure(&e))?;
-                state.normal = normal.unwrap_or(state.normal);
-                Ok(state)
+                let (own, kind) = (state.normal, self.kind());
+                state.normal = normal.unwrap_or(own);
+                match state.normal == own || kind == Kind::Specimen {
+                    true => Ok(state),
+                    false => Err(Failure::usage(format!(
+                        "'{}' is a {kind} across {own}, not across {}: leave out --normal",
+                        self.name, state.normal
+                    ))),
+                }
             }
             Content::Stack { voxels, edge_m, .. } => {
                 let parts = [&voxels.wood, &voxels.adhesive];

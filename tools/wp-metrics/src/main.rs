@@ -163,7 +163,9 @@ fn measure(
         let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).map_err(fail)?;
         write_profiles(output, record, &[(None, layers)])?;
     }
-    let experiment = experiment.map(|e| e.state(arguments.normal)).transpose()?;
+    // A specimen lies across any axis.
+    let across = |e: &Input| (e.kind() == Kind::Specimen).then_some(state.normal);
+    let experiment = experiment.map(|e| e.state(across(e))).transpose()?;
     let agreement = experiment.map(|experiment| compare(&state, &experiment));
     let agreement = agreement.transpose().map_err(fail)?;
     Ok(PenetrationRows {

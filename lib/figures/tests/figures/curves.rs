@@ -183,6 +183,8 @@ fn shear_rates_have_bands_median_and_decades() {
     let drawing = shear_rates(&[source], Page::default()).unwrap();
     says(&drawing, &["shear rate (1/s)", "time (µs)", "PF", "10⁵"]);
     says(&drawing, &["median", "maximum", "5 to 95 %"]);
+    // Nothing flows at the start: eight rates.
+    says(&drawing, &["left out: 8 not above zero"]);
     let (_, pixels) = pixels(&drawing);
     let bluish = |p: &&[u8; 3]| p[2] > p[0] && p[2] - p[0] > 20;
     let band = pixels.iter().filter(bluish).count() as f64 / pixels.len() as f64;
@@ -208,6 +210,12 @@ fn a_plot_has_titles_labels_and_marks() {
     // The second series has dots and no line: its colour covers little, but something.
     let colours = [BLUE, VERMILION].map(|c| share(&pixels, c));
     assert!(colours[0] > colours[1] && colours[1] > 1e-5, "{colours:?}");
+    // The deepest of six decades once stood at the edge, as what is zero did.
+    let wide = Plot::new("", "speed (m/s)", "y")
+        .logarithmic([true, false])
+        .with("a", Mark::Dots, vec![[1e-6, 1.0], [1.0, 2.0], [0.0, 3.0]]);
+    let wide = wide.draw(Page::default()).unwrap();
+    says(&wide, &["10⁻⁶", "10⁰", "left out: 1 not above zero"]);
     let empty = Plot::new("none", "", "").with("a", Mark::Line, vec![[f64::NAN, 0.0]]);
     assert!(matches!(empty.draw(Page::default()), Err(Error::Data(_))));
 }

@@ -30,13 +30,22 @@ fn write(
     table.flush()
 }
 
+/// A number with so many decimals; zero has no sign.
+fn fixed(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(zero) if zero.bytes().all(|b| b"0.".contains(&b)) => zero.into(),
+        _ => text,
+    }
+}
+
 /// Micrometres with six decimals.
 fn um(metres: f64) -> String {
-    format!("{:.6}", 1e6 * metres)
+    fixed(1e6 * metres, 6)
 }
 
 fn um3(cubic_metres: f64) -> String {
-    format!("{:.4}", 1e18 * cubic_metres)
+    fixed(1e18 * cubic_metres, 4)
 }
 
 fn pascal(pressure: f64) -> String {
@@ -44,7 +53,7 @@ fn pascal(pressure: f64) -> String {
 }
 
 fn share(share: f64) -> String {
-    format!("{share:.6}")
+    fixed(share, 6)
 }
 
 fn seconds(time_s: f64) -> String {
@@ -140,4 +149,16 @@ pub fn write_shear_rates(out: &mut dyn Write, states: &[ShearRates]) -> io::Resu
     };
     let header = "time_s,q05,q10,q25,q50,q75,q90,q95,max,mean,volume_um3";
     write(out, header, states.iter().map(cells))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn zero_has_no_sign() {
+        let told = [-0.0, -4e-8, 4e-8, -0.5, f64::NAN].map(super::share);
+        assert_eq!(
+            told,
+            ["0.000000", "0.000000", "0.000000", "-0.500000", "NaN"]
+        );
+    }
 }

@@ -2,7 +2,7 @@
 
 mod read;
 
-use particle_file::{Draft, Header, Kind, Provenance};
+use particle_file::{Draft, Header, IDENTITY, Kind, Provenance};
 use physics::{Array, Choice, Saved, Saving};
 
 use crate::case::SchemeName;
@@ -39,7 +39,6 @@ pub(crate) fn format(scheme: SchemeName) -> String {
 }
 
 // Attributes of a checkpoint's header.
-const IDENTITY: &str = "identity";
 const FORMAT: &str = "checkpoint_format";
 const SNAPSHOTS: &str = "snapshots";
 const ROW_MISSING: &str = "row_missing";

@@ -91,7 +91,7 @@ fn plot(first: &[&Prediction], liquid: &str) -> Plot {
     let title = format!(
         "Squeeze flow of {liquid}: ten repeats (bars: standard deviation), prediction (bands: uncertainty of the inputs)"
     );
-    let mut plot = Plot::new(&title, "time (s)", "radius (mm)").decades();
+    let mut plot = Plot::new(&title, "time (s)", "radius (mm)").logarithmic([true, false]);
     for p in first.iter().filter(|p| p.experiment.liquid.name == liquid) {
         let label = format!("{}, {:.1} N", p.experiment.name, p.experiment.force[0]);
         let predicted: Vec<_> = (p.points.iter())

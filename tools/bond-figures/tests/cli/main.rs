@@ -1,6 +1,7 @@
 //! The command line of bond-figures: exit statuses, formats, what goes where.
 
 mod movie;
+mod origin;
 #[path = "../../../workbench.rs"]
 mod workbench;
 

@@ -10,14 +10,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use cli::{Failure, InputRecord, Output, Record};
-use particle_file::ParticleFile;
+use particle_file::{ParticleFile, by_time};
 use voxels::LabelVolume;
 
 use points::Points;
 
 #[derive(Args, Debug)]
 pub struct Arguments {
-    /// Particle files; '-' is standard input; all formats but pvd take one
+    /// Particle files; '-' is standard input; all formats but pvd take one, and pvd states of one run
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Output file; '-' is standard output
@@ -54,9 +54,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let read = arguments.files.iter().map(PathBuf::as_path);
     cli::keep_apart_with_records(read, [&arguments.output])?;
-    let files = (arguments.files.iter())
-        .map(|path| ParticleFile::open(path).map_err(Failure::data))
-        .collect::<Result<Vec<_>, _>>()?;
+    let files = by_time(arguments.files.clone());
+    let files = files.map_err(|e| Failure::of_input(e.is_usage(), e))?;
+    let files: Vec<ParticleFile> = files.into_iter().map(|(_, file)| file).collect();
     let inputs = (files.iter())
         .map(|f| InputRecord::new(f.name().into(), f.content_hash()))
         .collect();

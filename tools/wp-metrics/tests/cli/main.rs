@@ -167,6 +167,53 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
     compared.refused(2, "the file to compare with is not a specimen");
 }
 
+/// The same specimen, turned, with as many layers beside as it has.
+#[test]
+fn a_state_keeps_its_axis_and_is_compared_with_its_specimen_alone() {
+    let bench = bench();
+    state(&bench, "final.mpts", 0, 1e-3);
+    bench.run("final.mpts --normal y").done();
+    bench.run("final.mpts --normal x").refused(
+        2,
+        "is a state of a run across y, not across x: leave out --normal",
+    );
+    let same = rows(&bench.run("final.mpts --compare specimen.mpts").output());
+    assert_eq!(number(&same[2][11]), 1.0);
+    // A specimen lies across any axis, whatever its header says.
+    let header = |axis| {
+        Header::new(
+            Kind::Specimen,
+            VOXEL,
+            axis,
+            [0.0; 3],
+            DIMS.map(|n| n as f64 * VOXEL),
+        )
+    };
+    let grid = |letters: fn(usize, usize) -> char, wanted| {
+        BitGrid::from_fn(DIMS, move |x, y, _| letters(x, y) == wanted)
+    };
+    bench.write_specimen("x.mpts", header(0), &grid(letter, 'w'), &grid(letter, 'a'));
+    assert_eq!(
+        rows(&bench.run("final.mpts --compare x.mpts").output()),
+        same
+    );
+    let other = |x: usize, y: usize| letter(x + 2, y);
+    bench.write_specimen(
+        "other.mpts",
+        header(1),
+        &grid(other, 'w'),
+        &grid(other, 'a'),
+    );
+    bench
+        .run("final.mpts --compare other.mpts")
+        .refused(2, "its wood is not that of the experiment");
+    specimen(&bench, "wide.mpts", [40, 60, 20]);
+    bench.run("specimen.mpts --compare wide.mpts").refused(
+        2,
+        "[40, 16] voxels of 1.4500 um but the experiment 60 layers along y of [40, 20]",
+    );
+}
+
 #[test]
 fn raw_volumes_and_proposed_grey_values() {
     let bench = bench();
