@@ -40,7 +40,8 @@
 #   make book                     the documents as one book to browse and search; needs mdbook
 #   make figures                  every figure of the paper; FORMATS="svg png pdf" FIGURE_WIDTH="84 mm" FIGURE_DPI=300
 #   make dist                     an archive of the tools for machines without a toolchain
-#   make man install clean help
+#   make install PREFIX="/opt/bond line" [DESTDIR=stage]   tools, man pages and completions
+#   make man clean help
 
 # Specimens and bond files on the way are kept: they are looked at and used again.
 .SECONDARY:
@@ -56,6 +57,7 @@ JOBS := $(or $(JOBS),$(shell nproc 2>/dev/null || getconf _NPROCESSORS_ONLN))
 SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 AT_ONCE = $(or $(patsubst -j%,%,$(firstword $(filter -j%,$(MAKEFLAGS)) $(JOBS))),$(JOBS))
 PREFIX ?= $(HOME)/.local
+DESTDIR ?=
 
 BIN := target/release
 TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures bond-report bond-sweep particles

@@ -47,12 +47,13 @@ man: $(BINARIES)
 	@for tool in $(TOOLS); do $(BIN)/$$tool --generate man; done | awk '$(PAGES)'
 	@echo "man pages in out/man"
 
-# Without the tables of lines that backtraces are made with: 190 of 215 MB.
+# Without the tables of lines that backtraces are made with: 190 of 215 MB. DESTDIR is put before PREFIX, as packagers do.
+INSTALLED = $(call q,$(DESTDIR)$(PREFIX))
 .PHONY: install
 install: $(BINARIES) man
-	install -d $(PREFIX)/bin $(PREFIX)/share/man/man1 $(PREFIX)/share/bash-completion/completions
-	install -s $(BINARIES) $(PREFIX)/bin
-	install -m 644 out/man/*.1 $(PREFIX)/share/man/man1
+	install -d $(INSTALLED)/bin $(INSTALLED)/share/man/man1 $(INSTALLED)/share/bash-completion/completions
+	install -s $(BINARIES) $(INSTALLED)/bin
+	install -m 644 out/man/*.1 $(INSTALLED)/share/man/man1
 	@for tool in $(TOOLS); do \
-	    $(BIN)/$$tool --generate bash > $(PREFIX)/share/bash-completion/completions/$$tool; done
-	@echo "$$(cd $(PREFIX)/bin && du -cm $(TOOLS) | tail -n 1 | cut -f 1) MB in $(PREFIX)/bin"
+	    $(BIN)/$$tool --generate bash > $(INSTALLED)/share/bash-completion/completions/$$tool; done
+	@echo "$$(cd $(INSTALLED)/bin && du -cm $(TOOLS) | tail -n 1 | cut -f 1) MB in" $(INSTALLED)/bin

@@ -3,7 +3,7 @@
 COMMA := ,
 STACKS := XCT_PF XCT_PVA_PF XCT_BOTTOM XCT_TOP
 # A `$` in them is one.
-$(foreach v,$(STACKS) SWEEP SWEEP_CASE SET,$(eval override $(v) := $$(value $(v))))
+$(foreach v,$(STACKS) SWEEP SWEEP_CASE SET DESTDIR $(if $(filter file,$(origin PREFIX)),,PREFIX),$(eval override $(v) := $$(value $(v))))
 OWN := $(if $(strip $(foreach v,$(STACKS),$($(v)))),yes)
 
 # One word for the shell.

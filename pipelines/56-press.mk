@@ -13,4 +13,4 @@ endif
 
 .PHONY: press
 press: $(PRESS_OUT)/bond.mpts
-	@pipelines/sweep/local.sh pipelines/sweep/press.csv pipelines/examples/hot-press-pf.toml "" $(AT_ONCE)
+	@pipelines/told.sh pipelines/sweep/local.sh pipelines/sweep/press.csv pipelines/examples/hot-press-pf.toml "" $(AT_ONCE)

@@ -5,7 +5,7 @@
 RESPONSE ?= entered_share
 .PHONY: sweep
 sweep: $(BINARIES)
-	@pipelines/sweep/local.sh $(call q,$(SWEEP)) $(call q,$(or $(SWEEP_CASE),pipelines/cases/pf-implicit.toml)) "$(RESPONSE)" $(AT_ONCE)
+	@pipelines/told.sh pipelines/sweep/local.sh $(call q,$(SWEEP)) $(call q,$(or $(SWEEP_CASE),pipelines/cases/pf-implicit.toml)) "$(RESPONSE)" $(AT_ONCE)
 
 # The same small sweep by every engine that is installed here, with jobs killed on the way: which were
 # found, and whether their tables are the same byte for byte. Writes to out/engines.

@@ -3,6 +3,7 @@
 # more than an hour and can close, or YES is set, all of it.
 #
 #   goal.sh GOAL MAKE...
+# The terminal, where it asks, is its own; makes of runs are told of signals (told.sh).
 set -euo pipefail
 export LC_ALL=C
 goal=$1
@@ -49,7 +50,7 @@ plan() {
 
 bonds=$(runs "$@" | sed -n 's/.* --particles \([^ ]*\) .*/\1/p' | sort -u)
 if [ -n "$bonds" ]; then
-    "$@" $bonds ${bonds//bond.mpts/voids.txt}
+    pipelines/told.sh "$@" $bonds ${bonds//bond.mpts/voids.txt}
     todo=$(runs "$@")
     # Cores that runs leave idle are theirs.
     [ -n "${RUN_THREADS:-}" ] || RUN_THREADS=$((AT_ONCE / $(wc -l <<<"$todo")))
@@ -66,5 +67,5 @@ if [ -n "$bonds" ]; then
     fi
 fi
 # Before the rest: of runs that wait for it, make starts the last ones first, and the first takes longest.
-case $goal in all | runs | table2 | figures | report) "$@" first-table ;; esac
-exec "$@" "$goal"
+case $goal in all | runs | table2 | figures | report) pipelines/told.sh "$@" first-table ;; esac
+exec pipelines/told.sh "$@" "$goal"

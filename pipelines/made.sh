@@ -6,7 +6,7 @@
 #
 # An INPUT is a file or a folder of files; OUTPUTS are what COMMAND writes beside TARGET. The record of what a target was
 # made of is .made/TARGET beside it: the command, and a line for each file with its checksum, how it looked and its name.
-# A file that looks as it did is not read again. What a particle file says it was made of counts too: data beside a header.
+# There is none of a target that is not there. A file that looks as it did is not read again. What a particle file says it was made of counts too: data beside a header.
 # COMMAND may use $HOW, options of mpm-run that change nothing of a result.
 set -euo pipefail
 export LC_ALL=C
@@ -51,7 +51,7 @@ content() { cut -f 1,3; }
 
 # Whether the target is what the record says.
 is_made() {
-    [[ $known != /dev/null && ${text%%$'\n'*} = "$command" ]] || return 1
+    [[ $known != /dev/null && -e $target && ${text%%$'\n'*} = "$command" ]] || return 1
     local now
     now=$({ files "$@"; cut -f 3 <<<"$lines"; } | state "$known")
     [ "$now" != "$lines" ] || return 0
@@ -87,10 +87,15 @@ if is_begun "$@"; then HOW+=" --resume"; fi
 printf '%s\n' "$begun" >"$record.begun.$$" && mv "$record.begun.$$" "$record.begun"
 [ -z "${V:-}" ] || printf '%s\n' "$command"
 # Behind a pipe tools write lines and no bars, of which several would be on one terminal.
-{ HOW=$HOW bash -euo pipefail -c "$command" 2>&1 >&3 | (trap '' INT; exec cat >&2); } 3>&1
+{ HOW=$HOW bash -euo pipefail -c "$command" 2>&1 >&3 | (trap '' INT TERM HUP; exec cat >&2); } 3>&1
 if [ "$(files "$@" | state <(printf '\n%s\n' "$before") | content)" != "$(content <<<"$before")" ]; then
     echo "$target: what it is made of changed meanwhile; make it again" >&2
     exit 1
 fi
-keep "$({ files "$@"; told; printf '%s\n' "$target" $outputs; } | state <(printf '%s\n' "$before"))"
+lines=$({ files "$@"; told; printf '%s\n' "$target" $outputs; } | state <(printf '%s\n' "$before"))
+# A make that is interrupted removes its target.
+for output in "$target" $outputs; do
+    [[ $lines$'\n' == *$'\t'"$output"$'\n'* ]] || { echo "$output was removed meanwhile; make it again" >&2; exit 1; }
+done
+keep "$lines"
 rm -f "$record.begun"

@@ -11,6 +11,12 @@ PATH=$PWD/target/release:$PATH
 [ -n "$table" ] || { echo "make sweep: a table is needed, as in make sweep SWEEP=table.csv" >&2; exit 2; }
 name=out/sweep/$(basename "$table" .csv)
 mkdir -p out/sweep
+for made in "$name.csv" "$name-cost.csv" "$name.svg"; do
+    if [ "$table" -ef "$made" ] || [[ -e $made && ! -e $made.provenance.json ]]; then
+        echo "make sweep: '$made' is no result of a sweep and would be replaced by one: move it, or give the table another name" >&2
+        exit 2
+    fi
+done
 
 bond-sweep plan "$table" --case "$case" -o "$name"
 # What keeps a run from its end is said by itself; collect says which rows lack.

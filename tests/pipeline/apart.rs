@@ -1,4 +1,4 @@
-//! No output replaces a file that is read, another output or a file of somebody else's.
+//! No output replaces a file that is read, another output, a file of a run or a sweep or one of somebody else's.
 
 use std::fs;
 
@@ -133,4 +133,76 @@ fn parts_of_a_series_replace_only_such_parts() {
     bench.done(again);
     assert!(bench.read(&path) == own);
     assert_eq!(bench.read("o.parts/notes.txt"), b"mine");
+}
+
+/// Files below a folder, by their paths in it.
+fn files(bench: &Workbench, folder: &str) -> Vec<String> {
+    let found = bench.done(&format!("cd {folder}; find . -type f | sort"));
+    found.lines().map(|name| name[2..].to_owned()).collect()
+}
+
+/// Tables, pages and states replaced a run's last state, its history and the plan of a sweep, with exit status 0. A file that
+/// runs and sweeps come to write belongs to them from then on: all that are found are tried.
+#[test]
+fn files_of_runs_and_sweeps_are_written_by_their_own_tools_alone() {
+    let bench = Workbench::with_bond();
+    bench.write("t.csv", "particles,clamp.stop\nbond.mpts,0.05 us\n");
+    bench.done(
+        "mpm-run -q case.toml --particles bond.mpts -o r --set clamp.stop=0.05us; ln -s r/snapshots link
+         echo of mine >r/notes.txt; wp-metrics -q r/final.mpts -o wp.csv
+         bond-sweep plan -q t.csv --case case.toml -o s; bond-sweep run -q s $(cat s/runs.txt)
+         mkdir -p s/specimens/1b; cp bond.mpts s/specimens/1b",
+    );
+    let others = [
+        "bond-report --run r --table wp.csv -o",
+        "wp-metrics --series r -o",
+        "wp-metrics r/final.mpts -o a.csv --profile",
+        "wp-metrics r/final.mpts -o a.csv --map",
+        "shear-stats --tube '1 m/s,50 um' -o",
+        "particles export bond.mpts -f csv -o",
+        "bond-figures table2 --run a:b=wp.csv -o",
+        "bond-figures table2 --run a:b=wp.csv -o b.csv --errors",
+        "synth-xct -q --adhesive pf --size 24x64x24 -o",
+        "xct2particles -q specimen.npy --voxel 1.45um -o",
+        "build-bondline -q specimen.mpts -o",
+        "bond-sweep collect s -o",
+        "bond-sweep collect s -o a.csv --cost",
+    ];
+    let kept = [("r", files(&bench, "r")), ("s", files(&bench, "s"))];
+    let mut tried = 0;
+    for (folder, names) in kept {
+        for (i, name) in names.iter().filter(|name| *name != "notes.txt").enumerate() {
+            let path = format!("{folder}/{name}");
+            let before = bench.read(&path);
+            // Every tool is tried on some, and on each file two tools are.
+            for tool in [others[i % others.len()], others[(i + 6) % others.len()]] {
+                bench.ends(2, &format!("{tool} {path}"), "");
+                assert!(bench.read(&path) == before, "{tool} {path}");
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 2 * others.len(), "{tried}");
+    for line in [
+        "wp-metrics r/final.mpts -o link/0000.mpts",
+        "wp-metrics --series r -o r/checkpoint.mpts",
+        "cd r/snapshots; wp-metrics ../final.mpts -o ../history.csv",
+    ] {
+        bench.ends(2, line, "belongs to the run in '");
+    }
+    bench.ends(
+        2,
+        "bond-sweep collect s -o s/runs.txt",
+        "belongs to the sweep in '",
+    );
+    bench.ends(
+        2,
+        "bond-report --table wp.csv -o wp.csv.provenance.json",
+        "is the provenance record of '",
+    );
+    // Other names in these folders are anybody's.
+    bench.done(
+        "wp-metrics --series r -o r/series.csv; wp-metrics r/final.mpts -o r/notes.txt
+         bond-sweep collect -q s -o s/results.csv",
+    );
 }

@@ -168,6 +168,34 @@ fn the_tools_are_installed_stripped() {
     assert!(folder.path().join("share/man/man1/bond-sweep.1").is_file());
 }
 
+/// A blank in PREFIX installed into the repository, and DESTDIR was refused.
+#[test]
+fn the_tools_are_installed_where_prefix_and_destdir_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("it's $a #b");
+    let prefix = format!("PREFIX={}", place.display());
+    let staged = format!("DESTDIR={}/stage d", folder.path().display());
+    for (given, below) in [
+        (&[prefix.as_str()][..], place.clone()),
+        (
+            &[&staged, "PREFIX=/opt/bond line"],
+            folder.path().join("stage d/opt/bond line"),
+        ),
+    ] {
+        let output = make(&[&["-s", "install"], given].concat());
+        assert!(output.status.success(), "{}", said(&output));
+        for name in [
+            "bin/mpm-run",
+            "share/man/man1/mpm-run.1",
+            "share/bash-completion/completions/mpm-run",
+        ] {
+            assert!(below.join(name).is_file(), "{name}");
+        }
+    }
+    let top = std::fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(top, 2, "nothing elsewhere");
+}
+
 /// The sub-makes set the number of jobs anew, over the one that was asked for.
 #[test]
 fn jobs_that_were_asked_for_hold_in_sub_makes() {

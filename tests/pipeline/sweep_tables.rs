@@ -165,3 +165,93 @@ fn a_sweep_of_one_row_has_a_figure_and_rows_of_commas_are_none() {
         assert!(drawn.contains(wanted), "{wanted}: {drawn}");
     }
 }
+
+/// What a sweep was made of was replaced by its results; a table of the same name took the place of another's runs.
+#[test]
+fn a_sweep_keeps_its_table_and_is_of_one_table() {
+    let bench = bench("particles,clamp.stop\nbond.mpts,0.05 us\n");
+    let [run] = planned(&bench, "s").try_into().unwrap();
+    bench.done(&format!("bond-sweep run -q s {run}"));
+    let (collect, input) = ("bond-sweep collect s -o", "is an input");
+    for kept in ["table.csv", "case.toml", "bond.mpts", "s/plan.json"] {
+        let before = bench.read(kept);
+        bench.ends(2, &format!("{collect} {kept}"), input);
+        bench.ends(2, &format!("{collect} a.csv --cost {kept}"), input);
+        assert!(bench.read(kept) == before, "{kept}");
+    }
+    let plan = bench.read("s/plan.json");
+    bench.done("mkdir b; cp bond.mpts table.csv b; echo bond.mpts,0.1 us >>b/table.csv");
+    let other = "bond-sweep plan -q b/table.csv --case case.toml -o s";
+    bench.ends(2, other, "'s' holds the sweep of '");
+    assert!(bench.read("s/plan.json") == plan);
+    let own = format!("bond-sweep plan table.csv --case s/runs/{run}/case.toml -o s");
+    bench.ends(2, &own, "would be replaced by a file of the sweep");
+    // Rows added, the folder moved with its table, the table renamed.
+    bench.done(&format!(
+        "echo bond.mpts,0.1 us >>table.csv; {PLAN} s; mkdir c; mv s c; cp case.toml bond.mpts c; mv table.csv c
+         cd c; bond-sweep plan -q table.csv --case case.toml -o s; mv table.csv t.csv
+         bond-sweep plan -q t.csv --case case.toml -o s"
+    ));
+}
+
+/// A pipe was a file called `-`.
+#[test]
+fn cases_tables_and_what_a_page_shows_may_come_from_a_pipe() {
+    let bench = bench("particles,clamp.stop\nbond.mpts,0.05 us\n");
+    let runs = planned(&bench, "s");
+    bench.done(
+        "cat table.csv | bond-sweep plan -q - --case case.toml -o p; cmp s/runs.txt p/runs.txt
+         cat case.toml | bond-sweep plan -q table.csv --case - -o q; cmp s/runs.txt q/runs.txt
+         bond-sweep plan -q - --case case.toml -o p <table.csv
+         for name in case.toml -; do cat case.toml | mpm-run -q $name --particles bond.mpts -o r$name; done
+         mpm-run -q case.toml --particles - -o b <bond.mpts
+         cmp r-/history.csv rcase.toml/history.csv; cmp r-/history.csv b/history.csv
+         wp-metrics -q r-/final.mpts -o wp.csv; bond-figures pressure --run r- -o p.png -o p.svg",
+    );
+    assert_eq!(runs.len(), 1);
+    let page = |what: &str, file: &str| {
+        let [named, piped] = [("", file), (&*format!("cat {file} | "), "-")].map(|(pipe, name)| {
+            let line = format!("{pipe}bond-report --{what} x={name} -o page.html");
+            bench.done(&line);
+            let record = bench.text("page.html.provenance.json");
+            let hash = record.split("\"xxh3\": ").nth(1).map(str::to_owned);
+            let body = bench.text("page.html");
+            let shown = body.split("<h2").nth(1).map(str::to_owned);
+            assert!(hash.is_some(), "{record}");
+            (hash, shown)
+        });
+        assert_eq!(named, piped, "{what}");
+    };
+    for (what, file) in [
+        ("table", "wp.csv"),
+        ("experiment", "wp.csv"),
+        ("picture", "p.png"),
+        ("picture", "p.svg"),
+        ("state", "r-/final.mpts"),
+    ] {
+        page(what, file);
+    }
+    for line in [
+        "bond-report --table a=- --picture b=- -o O",
+        "bond-sweep plan - --case - -o O",
+        "mpm-run - --particles - -o O",
+        "bond-figures map --map - --map - -o O.svg",
+    ] {
+        bench.ends(2, line, "'-' can be read only once");
+    }
+}
+
+/// A specimen that finds no room was a fault of the table.
+#[test]
+fn a_plan_that_cannot_be_written_ends_with_1() {
+    let bench = bench("specimen.seed,clamp.stop\n7,0.05 us\n");
+    let full = format!("prlimit --fsize=4096 {PLAN} full");
+    bench.ends(1, &full, "row 1: its specimen: synth-xct: cannot write");
+    bench.write("file", "");
+    bench.ends(
+        1,
+        &format!("{PLAN} file/s"),
+        "row 1: its specimen: cannot make",
+    );
+    bench.done(&format!("{PLAN} full"));
+}

@@ -1,4 +1,4 @@
-//! Outputs that would replace what is read, one another, or what is write-protected are refused, and those without a folder.
+//! Outputs that would replace what is not theirs to replace are refused, and those without a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,17 +6,31 @@ use std::path::{Path, PathBuf};
 use crate::{Failure, Output};
 use crate::{aside, output, provenance};
 
-/// Refuses outputs that would replace a file that is read, one another, or a write-protected file, or have no folder to lie in.
+/// What only its own tool writes: kinds of folders, what is in each of them, and their files; `*` stands for any characters.
+const OWNED: [[&str; 3]; 2] = [
+    [
+        "run",
+        "bondline-run.toml",
+        "bondline-run.toml resolved.toml history.csv checkpoint.mpts final.mpts summary.json snapshots/*.mpts",
+    ],
+    [
+        "sweep",
+        "plan.json runs",
+        "plan.json runs.txt runs/*/case.toml runs/*/row.csv specimens/*/*",
+    ],
+];
+
+/// Refuses outputs that would replace a file that is read, one another, a file of a run or a sweep, another file's provenance
+/// record or a write-protected file, or have no folder to lie in.
 ///
 /// # Errors
-/// Exit 2 with the file that is named twice; exit 1 with the one that cannot be written.
+/// Exit 2 with the file that is named twice or is not the tool's own; exit 1 with the one that cannot be written.
 pub fn keep_apart<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Output>,
 ) -> Result<(), Failure> {
-    let mut places = Places::read_at(inputs);
-    let mut outputs = outputs.into_iter();
-    outputs.try_for_each(|output| places.write_at(output))
+    let outputs: Vec<&Output> = outputs.into_iter().collect();
+    Places::apart(inputs, &outputs).map(|_| ())
 }
 
 /// As [`keep_apart`], for outputs written by [`Output::write_with_record`]: their records are
@@ -30,8 +44,7 @@ pub fn keep_apart_with_records<'a>(
     outputs: impl IntoIterator<Item = &'a Output>,
 ) -> Result<(), Failure> {
     let outputs: Vec<&Output> = outputs.into_iter().collect();
-    let mut places = Places::read_at(inputs);
-    (outputs.iter()).try_for_each(|output| places.write_at(output))?;
+    let mut places = Places::apart(inputs, &outputs)?;
     for output in outputs {
         let Some(record) = output.record_path() else {
             continue;
@@ -53,14 +66,20 @@ struct Places {
 }
 
 impl Places {
-    fn read_at<'a>(inputs: impl IntoIterator<Item = &'a Path>) -> Self {
+    fn apart<'a>(
+        inputs: impl IntoIterator<Item = &'a Path>,
+        outputs: &[&Output],
+    ) -> Result<Self, Failure> {
         // Standard input may be a file that has a name.
         let stdin = Path::new("/dev/stdin");
         let named = |path| if path == Path::new("-") { stdin } else { path };
-        Self {
+        let mut places = Self {
             read: (inputs.into_iter().map(named).filter_map(place)).collect(),
             written: Vec::new(),
-        }
+        };
+        (outputs.iter()).try_for_each(|output| places.write_at(output))?;
+        (outputs.iter()).try_for_each(|output| refuse_owned(output))?;
+        Ok(places)
     }
 
     fn write_at(&mut self, output: &Output) -> Result<(), Failure> {
@@ -93,6 +112,47 @@ impl Places {
         self.written.push(place);
         None
     }
+}
+
+/// Refuses an output that would be a file of a run or a sweep, or the provenance record of another file.
+fn refuse_owned(output: &Output) -> Result<(), Failure> {
+    let place = match output {
+        Output::File(path) => place(path),
+        Output::Stdout => None,
+    };
+    match place.and_then(|place| owner(&place)) {
+        Some(owner) => Err(Failure::usage(format!(
+            "{output} {owner} and is not replaced: give another file name"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// What the file at `place` belongs to.
+fn owner(place: &Path) -> Option<String> {
+    let recorded = place
+        .to_str()
+        .and_then(|p| p.strip_suffix(provenance::ENDING));
+    if let Some(of) = recorded.filter(|of| Path::new(of).is_file()) {
+        return Some(format!("is the provenance record of '{of}'"));
+    }
+    let is_of = |[what, marks, files]: &[&str; 3]| {
+        let folder = files.split(' ').find_map(|file| {
+            let parts = file.split('/').rev();
+            let folder = place.ancestors().nth(parts.clone().count())?;
+            let fits = parts.zip(place.iter().rev()).all(|(part, name)| {
+                let name = name.as_encoded_bytes();
+                match part.strip_prefix('*') {
+                    Some(end) => name.ends_with(end.as_bytes()),
+                    None => name == part.as_bytes(),
+                }
+            });
+            let marked = || marks.split(' ').all(|mark| folder.join(mark).exists());
+            (fits && marked()).then_some(folder)
+        });
+        folder.map(|folder| format!("belongs to the {what} in '{}'", folder.display()))
+    };
+    OWNED.iter().find_map(is_of)
 }
 
 /// Where a regular file is or would be; `None` for devices and pipes, which hold nothing that

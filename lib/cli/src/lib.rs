@@ -29,6 +29,7 @@ mod progress;
 mod provenance;
 mod signals;
 mod staged;
+mod stdin;
 
 pub use apart::{keep_apart, keep_apart_with_records};
 pub use common::{Common, main};
@@ -39,3 +40,4 @@ pub use progress::{Progress, duration};
 pub use provenance::{InputRecord, Record, hash_reader};
 pub use signals::{catch_interrupts, interrupted};
 pub use staged::StagedFolder;
+pub use stdin::stdin_in_place;

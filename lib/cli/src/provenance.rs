@@ -55,10 +55,13 @@ impl Record {
     }
 }
 
+/// What follows a file's name in that of its record.
+pub(crate) const ENDING: &str = ".provenance.json";
+
 /// Where the record of the file at `path` goes.
 pub(crate) fn beside(path: &Path) -> PathBuf {
     let mut beside = path.to_owned().into_os_string();
-    beside.push(".provenance.json");
+    beside.push(ENDING);
     beside.into()
 }
 

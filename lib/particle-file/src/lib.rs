@@ -42,7 +42,7 @@ pub use bits::{BitGrid, Bits, BitsRef};
 pub use error::Error;
 pub use folder::{IDENTITY, RUN_MARK, by_time, file_of_run, in_folder, states_of_run};
 pub use header::{Block, Header, Kind, Material, Provenance};
-pub use map::Mapped;
+pub use map::{Mapped, open};
 pub use read::{ParticleFile, Value};
 pub use section::{Element, Section};
 pub use shell::{command_line, quoted};

@@ -52,14 +52,21 @@ impl Mapped {
     }
 }
 
+/// The file at `path`, or standard input for `-`.
+///
+/// # Errors
+/// The system's reason.
+pub fn open(path: &Path) -> io::Result<File> {
+    match path == Path::new("-") {
+        true => Ok(io::stdin().as_fd().try_clone_to_owned()?.into()),
+        false => File::open(path),
+    }
+}
+
 /// A regular file, which has a name and which others can write to, or the private copy of a pipe; and
 /// whether it has a name.
 fn opened(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<(File, bool)> {
-    let file = if path == Path::new("-") {
-        io::stdin().as_fd().try_clone_to_owned()?.into()
-    } else {
-        File::open(path)?
-    };
+    let file = open(path)?;
     let kind = file.metadata()?;
     if kind.is_dir() {
         return Err(io::Error::other(match path.join(RUN_MARK).is_file() {

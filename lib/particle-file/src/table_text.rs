@@ -1,22 +1,19 @@
 //! The text of tables that tools are given.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::limits;
+use crate::{limits, open};
 
 /// The whole text of a table of commas and lines, of which the caller makes `row` bytes for each row and
-/// `cell` bytes for each cell, and keeps what they say.
+/// `cell` bytes for each cell, and keeps what they say; `-` is standard input.
 ///
 /// # Errors
 /// The system's reason, more than [`limits::TABLE`] bytes, or more rows and cells than there is memory
 /// for, whatever lines they stand in.
 pub fn read_table(path: &Path, [row, cell]: [u64; 2]) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
-    File::open(path)?
-        .take(limits::TABLE + 1)
-        .read_to_end(&mut text)?;
+    open(path)?.take(limits::TABLE + 1).read_to_end(&mut text)?;
     if text.len() as u64 > limits::TABLE {
         let most = limits::TABLE;
         let what = format!("it is no table: it has more than {most} bytes");

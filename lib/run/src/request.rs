@@ -54,15 +54,20 @@ impl Request {
     /// # Errors
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
+        let stdin = Path::new("-");
+        if case == stdin && bond == Some(stdin) {
+            return refused("'-' can be read only once: name a file for the case or the bond");
+        }
+        let named = Path::new("/dev/stdin");
+        let place = |path| PathBuf::from(if path == stdin { named } else { path });
         let original = case_text(case)?;
         let text = with_changes(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;
         let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
-        let mut places = vec![case.to_owned()];
+        let mut places = vec![place(case)];
         let bond = match bond {
             Some(path) => {
-                let stdin = path == Path::new("-");
-                places.push(if stdin { Path::new("/dev/stdin") } else { path }.into());
+                places.push(place(path));
                 let file = ParticleFile::read(path)?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)

@@ -3,12 +3,11 @@
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::os::fd::AsFd;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use particle_file::spool;
+use particle_file::{open, spool};
 
 use crate::Error;
 use crate::kind::Kind;
@@ -113,10 +112,7 @@ impl Source {
 }
 
 fn regular_file(path: &Path) -> io::Result<File> {
-    let file = match path.as_os_str() == "-" {
-        true => io::stdin().as_fd().try_clone_to_owned()?.into(),
-        false => File::open(path)?,
-    };
+    let file = open(path)?;
     match file.metadata()? {
         meta if meta.is_dir() => Err(io::Error::other("it is a folder")),
         meta if meta.is_file() => Ok(file),

@@ -1,9 +1,7 @@
 //! The files of a figure.
 
 use std::fs::File;
-use std::io;
-use std::os::fd::AsRawFd;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use cli::{Failure, InputRecord, Output, Record};
 use figures::{Case, Labelled, read_beside};
@@ -22,28 +20,18 @@ pub(crate) struct Inputs {
 
 impl Inputs {
     /// Takes the files as they are, `-` as standard input.
-    pub(crate) fn new(files: Vec<Labelled>) -> Result<Self, Failure> {
+    pub(crate) fn new(mut files: Vec<Labelled>) -> Result<Self, Failure> {
         let given: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
-        let from_pipe = |path: &PathBuf| path == Path::new("-");
-        let spooled = match given.iter().filter(|path| from_pipe(path)).count() {
-            0 => None,
-            1 => Some(spool().map_err(|e| Failure::failed(format!("cannot spool '-': {e}")))?),
-            _ => {
-                return Err(Failure::usage("'-' can be read only once"));
-            }
-        };
-        let placed = files.into_iter().map(|mut file| {
-            if let Some(copy) = spooled.as_ref().filter(|_| from_pipe(&file.path)) {
-                file.path = format!("/dev/fd/{}", copy.as_raw_fd()).into();
-            }
-            file
-        });
+        // A particle file begins as one, and a text has no zeros.
+        let known = |head: &[u8]| ParticleFile::recognises(head) || !head.contains(&0);
+        let paths = files.iter_mut().map(|file| &mut file.path);
+        let spooled = cli::stdin_in_place(paths, known)?;
         let beside = given.iter().filter_map(|path| read_beside(path)).flatten();
         let mut beside: Vec<PathBuf> = beside.filter(|path| path.is_file()).collect();
         beside.sort();
         beside.dedup();
         Ok(Self {
-            files: placed.collect(),
+            files,
             given,
             beside,
             _spooled: spooled,
@@ -104,10 +92,4 @@ impl Inputs {
         let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
         Ok(Record::new(tool, version, hashed))
     }
-}
-
-/// Standard input, if it begins as a particle file or a text may.
-fn spool() -> io::Result<File> {
-    let known = |head: &[u8]| ParticleFile::recognises(head) || !head.contains(&0);
-    particle_file::spool(io::stdin().lock(), known)
 }

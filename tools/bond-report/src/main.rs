@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use cli::{Failure, InputRecord, Output, Record};
+use particle_file::ParticleFile;
 use report::{Error, Labelled, Report, RunFolder, measured, picture, scene, table};
 
 /// Put runs, tables and pictures into one HTML page that needs no network
@@ -56,30 +57,41 @@ fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, start)
 }
 
-fn start(arguments: Arguments) -> Result<(), Failure> {
-    let inputs = inputs(&arguments);
-    if inputs.is_empty() {
+fn start(mut arguments: Arguments) -> Result<(), Failure> {
+    let given = inputs(&arguments);
+    if given.is_empty() {
         return Err(Failure::usage(
             "nothing to report on: give --run, --experiment, --table, --picture or --state",
         ));
     }
-    cli::keep_apart_with_records(inputs.iter().map(PathBuf::as_path), [&arguments.output])?;
-    let (mut runs, mut experiments) = (arguments.run, arguments.experiment);
-    for labels in [&mut runs, &mut experiments] {
+    cli::keep_apart_with_records(given.iter().map(PathBuf::as_path), [&arguments.output])?;
+    let files = [
+        &mut arguments.experiment,
+        &mut arguments.table,
+        &mut arguments.picture,
+        &mut arguments.state,
+    ];
+    let paths = files.into_iter().flatten().map(|file| &mut file.path);
+    let known = |head: &[u8]| {
+        ParticleFile::recognises(head) || head.starts_with(b"\x89PNG") || !head.contains(&0)
+    };
+    let _spooled = cli::stdin_in_place(paths, known)?;
+    let inputs = inputs(&arguments);
+    for labels in [&mut arguments.run, &mut arguments.experiment] {
         Labelled::tell_apart(labels);
     }
     let mut report = Report {
         title: arguments.title,
-        experiments: all(&experiments, measured)?,
-        runs: all(&runs, RunFolder::read)?,
+        experiments: all(&arguments.experiment, measured)?,
+        runs: all(&arguments.run, RunFolder::read)?,
         tables: all(&arguments.table, table)?,
         pictures: all(&arguments.picture, picture)?,
         scenes: all(&arguments.state, scene)?,
         ..Report::default()
     };
     // What was read has an end.
-    let there = inputs.iter().filter(|path| path.exists());
-    let hashed = there.map(|path| InputRecord::of_file(path, path.display().to_string()));
+    let there = (inputs.iter().zip(&given)).filter(|(path, _)| path.exists());
+    let hashed = there.map(|(path, given)| InputRecord::of_file(path, given.display().to_string()));
     let hashed = hashed.collect::<Result<_, _>>()?;
     let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), hashed);
     report.command = particle_file::command_line(&record.command);

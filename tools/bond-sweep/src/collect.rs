@@ -1,6 +1,6 @@
 //! The results of a sweep as one table.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cli::{Failure, InputRecord, Output, Record, Status};
 use csv::StringRecord;
@@ -22,7 +22,9 @@ pub fn collect(folder: &Path, output: &Output, cost: Option<&Output>) -> Result<
         VERSION,
         vec![InputRecord::of_file(&place, place.display().to_string())?],
     );
-    cli::keep_apart_with_records([place.as_path()], [output].into_iter().chain(cost))?;
+    let read = plan.sources(folder);
+    let read = read.iter().map(PathBuf::as_path);
+    cli::keep_apart_with_records(read, [output].into_iter().chain(cost))?;
     let mut rows = Vec::new();
     let mut missing = Vec::new();
     for (i, planned) in plan.rows.iter().enumerate() {

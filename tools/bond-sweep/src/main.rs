@@ -48,9 +48,9 @@ enum Step {
   bond-sweep plan large.csv --case pf-xpic.toml --yes-really -o sweep
   bond-sweep plan table.csv --case pf-implicit.toml -o sweep && wc -l sweep/runs.txt")]
     Plan {
-        /// Table of the runs (CSV)
+        /// Table of the runs (CSV); '-' is standard input, its paths then start from the working folder
         table: PathBuf,
-        /// Case file of rows without a case of their own
+        /// Case file of rows without a case of their own; '-' is standard input
         #[arg(long, value_name = "CASE.toml")]
         case: PathBuf,
         /// Folder of the sweep
@@ -95,11 +95,24 @@ fn main() -> ExitCode {
 fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.step {
         Step::Plan {
-            table,
-            case,
+            mut table,
+            mut case,
             output,
             yes_really,
-        } => plan::make(&table, &case, &output, yes_really),
+        } => {
+            if output.as_os_str() == "-" {
+                return Err(Failure::usage(
+                    "a sweep is a folder of files and cannot go to standard output: -o FOLDER is needed",
+                ));
+            }
+            // A case is read for each row, a table once.
+            let text = |head: &[u8]| !head.contains(&0);
+            let _spooled = match case.as_os_str() == "-" {
+                true => cli::stdin_in_place([&mut table, &mut case], text)?,
+                false => None,
+            };
+            plan::make(&table, &case, &output, yes_really)
+        }
         Step::Run { folder, run } => press::run(&folder, &run),
         Step::Collect {
             folder,

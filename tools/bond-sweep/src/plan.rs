@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use cli::{Failure, Output};
 use serde::{Deserialize, Serialize};
@@ -26,6 +26,12 @@ const RUNS: &str = "runs.txt";
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     version: String,
+    /// The table that it was made of, seen from the folder; none of standard input.
+    #[serde(default)]
+    table: Option<PathBuf>,
+    /// The case files, seen from the folder.
+    #[serde(default)]
+    cases: BTreeSet<PathBuf>,
     /// Whether runs of any length are started.
     pub however_long: bool,
     /// Columns of the inputs, with their units.
@@ -69,6 +75,14 @@ impl Plan {
         }
     }
 
+    /// The files that it was made of, and its own.
+    pub fn sources(&self, folder: &Path) -> Vec<PathBuf> {
+        let bonds = self.runs.values().map(|job| &job.bond);
+        let files = self.table.iter().chain(&self.cases).chain(bonds);
+        let all = files.map(|file| folder.join(file));
+        all.chain([folder.join(PLAN)]).collect()
+    }
+
     /// The run of this name.
     pub fn job(&self, run: &str) -> Result<&Job, Failure> {
         self.runs.get(run).ok_or_else(|| {
@@ -80,9 +94,9 @@ impl Plan {
 
     /// Writes what is not there yet; the plan first, which says whose the folder is.
     fn write(&self, folder: &Path, cases: &BTreeMap<String, &str>) -> Result<(), Failure> {
-        make_folder(folder)?;
-        let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
-        keep(&folder.join(PLAN), &text)?;
+        let text = serde_json::to_string_pretty(self);
+        let text = text.map_err(|e| Failure::usage(format!("a bond file cannot be named: {e}")))?;
+        keep(&folder.join(PLAN), &(text + "\n"))?;
         for (run, case) in cases {
             make_folder(&run_folder(folder, run))?;
             keep(&case_of(folder, run), case)?;
@@ -103,23 +117,21 @@ pub fn case_of(folder: &Path, run: &str) -> PathBuf {
 }
 
 /// Plans the sweep of `table` in `folder`; runs of an earlier plan there stay and are used again. Refused are cells, with
-/// row and column, and a folder that is not a sweep's (exit 2).
+/// row and column, and a folder that is not a sweep's, or that of another table (exit 2).
 pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Result<(), Failure> {
     let table = Table::read(path)?;
     let drafts = (0..table.rows.len())
         .map(|row| Draft::of_row(&table, row, case))
         .collect::<Result<Vec<_>, _>>()?;
-    let written = [PLAN, RUNS].map(|name| Output::File(folder.join(name)));
     let read = drafts.iter().map(|draft| draft.case.as_path());
-    // Nothing is read from a folder that is not there yet.
-    if folder.is_dir() {
-        cli::keep_apart(read.chain([path]), &written)?;
-    }
-    refuse_foreign(folder)?;
+    (read.chain([path])).try_for_each(|read| refuse_own(folder, read))?;
+    refuse_foreign(folder, path)?;
     let made = make_specimens(&table, &drafts, folder)?;
     let (inputs, cells) = inputs::columns(&table, &drafts);
     let mut plan = Plan {
         version: VERSION.into(),
+        table: None,
+        cases: BTreeSet::new(),
         however_long,
         inputs,
         rows: Vec::new(),
@@ -135,6 +147,10 @@ pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Resu
         }
         plan.rows.push(Row { run, inputs });
     }
+    make_folder(folder)?;
+    plan.table = seen_from(folder, path);
+    let read = drafts.iter().map(|draft| draft.case.as_path());
+    plan.cases = read.filter_map(|case| seen_from(folder, case)).collect();
     plan.write(folder, &cases)?;
     cli::note(format_args!(
         "{}: {} rows, {} runs in {}, {made} synthetic specimens",
@@ -161,27 +177,68 @@ fn make_specimens(table: &Table, drafts: &[Draft], folder: &Path) -> Result<usiz
         if let Some(recipe) = draft.recipe.as_ref().filter(|recipe| made.insert(*recipe)) {
             cli::detail(format_args!("specimen of row {}", row + 1));
             let made = recipe.make(folder);
-            made.map_err(|why| table.wrong_row(row, format_args!("its specimen: {why}")))?;
+            made.map_err(|(status, why)| {
+                table.failed_row(row, status, format_args!("its specimen: {why}"))
+            })?;
         }
     }
     Ok(made.len())
 }
 
-/// Refuses a folder in which other files stand at a sweep's names.
-fn refuse_foreign(folder: &Path) -> Result<(), Failure> {
-    let is_there = |name: &str| fs::symlink_metadata(folder.join(name)).is_ok();
-    let own = || serde_json::from_str::<Plan>(&fs::read_to_string(folder.join(PLAN)).ok()?).ok();
-    let foreign = match is_there(PLAN) {
-        true => own().is_none().then_some(PLAN),
-        false => is_there(RUNS).then_some(RUNS),
+/// Refuses a table or a case that is a file of the sweep itself.
+fn refuse_own(folder: &Path, read: &Path) -> Result<(), Failure> {
+    let is_inside = || {
+        let inside = fs::canonicalize(read).ok()?;
+        let inside = inside.strip_prefix(fs::canonicalize(folder).ok()?).ok()?;
+        let of_run = inside.starts_with("runs") && inside.ends_with("case.toml");
+        Some(of_run || [PLAN, RUNS].iter().any(|name| inside == Path::new(name)))
     };
-    match foreign {
-        None => Ok(()),
-        Some(name) => Err(Failure::usage(format!(
-            "'{}' does not belong to a sweep and would be replaced: name another folder",
-            folder.join(name).display()
+    match is_inside() {
+        None | Some(false) => Ok(()),
+        Some(true) => Err(Failure::usage(format!(
+            "'{}' is an input and would be replaced by a file of the sweep: name another folder",
+            read.display()
         ))),
     }
+}
+
+/// Refuses a folder in which other files stand at a sweep's names, or that holds the sweep of a table other than `path`.
+fn refuse_foreign(folder: &Path, path: &Path) -> Result<(), Failure> {
+    let is_there = |name: &str| fs::symlink_metadata(folder.join(name)).is_ok();
+    let own = || serde_json::from_str::<Plan>(&fs::read_to_string(folder.join(PLAN)).ok()?).ok();
+    let own = own();
+    let foreign = match is_there(PLAN) {
+        true => own.is_none().then_some(PLAN),
+        false => is_there(RUNS).then_some(RUNS),
+    };
+    if let Some(name) = foreign {
+        return Err(Failure::usage(format!(
+            "'{}' does not belong to a sweep and would be replaced: name another folder",
+            folder.join(name).display()
+        )));
+    }
+    let other = own.and_then(|plan| fs::canonicalize(folder.join(plan.table?)).ok());
+    let ours = fs::canonicalize(path).ok().filter(|ours| ours.is_file());
+    match other.zip(ours) {
+        Some((other, ours)) if other != ours => Err(Failure::usage(format!(
+            "'{}' holds the sweep of '{}': name another folder, or give '{}' another name",
+            folder.display(),
+            other.display(),
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// A file as seen from a folder, both of which are there; none where its name is no text, or it is no regular file.
+fn seen_from(folder: &Path, file: &Path) -> Option<PathBuf> {
+    let [folder, file] = [folder, file].map(|path| fs::canonicalize(path).ok());
+    let (folder, file) = (folder?, file.filter(|file| file.is_file())?);
+    let shared = (folder.iter().zip(&file)).take_while(|(a, b)| a == b);
+    let shared = shared.count();
+    let up = (folder.iter().skip(shared)).map(|_| Component::ParentDir.as_os_str());
+    let seen: PathBuf = up.chain(file.iter().skip(shared)).collect();
+    seen.to_str().is_some().then_some(seen)
 }
 
 fn make_folder(place: &Path) -> Result<(), Failure> {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use cli::{Failure, InputRecord};
+use cli::{Failure, InputRecord, Status};
 use units::{Angle, Length};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -70,15 +70,17 @@ impl Recipe {
         Path::new("specimens").join(name).join("bond.mpts")
     }
 
-    /// Makes its bond file below `sweep`, where there is none; an error is what the tools say.
-    pub fn make(&self, sweep: &Path) -> Result<(), String> {
+    /// Makes its bond file below `sweep`, where there is none; an error is the exit status of the tools and what they say.
+    pub fn make(&self, sweep: &Path) -> Result<(), (Status, String)> {
         let bond = sweep.join(self.bond());
         if bond.is_file() {
             return Ok(());
         }
         let folder = bond.with_file_name("");
-        fs::create_dir_all(&folder)
-            .map_err(|e| format!("cannot make '{}': {e}", folder.display()))?;
+        fs::create_dir_all(&folder).map_err(|e| {
+            let said = format!("cannot make '{}': {e}", folder.display());
+            (Status::Failed, said)
+        })?;
         let [stack, experiment] = ["specimen.tif", "experiment.mpts"].map(|n| folder.join(n));
         let values = QUICK.iter().zip(&self.0);
         let options: Vec<String> = values
@@ -98,18 +100,28 @@ impl Recipe {
 }
 
 /// Runs a tool of the pipeline to its end: the one beside this, or the one on the path.
-fn run(name: &str, arguments: impl FnOnce(&mut Command) -> &mut Command) -> Result<(), String> {
+fn run(
+    name: &str,
+    arguments: impl FnOnce(&mut Command) -> &mut Command,
+) -> Result<(), (Status, String)> {
     let beside = std::env::current_exe().map(|own| own.with_file_name(name));
     let mut tool = match beside {
         Ok(path) if path.is_file() => Command::new(path),
         _ => Command::new(name),
     };
     let ended = arguments(tool.arg("--quiet").stdin(Stdio::null())).output();
-    let ended = ended.map_err(|e| format!("cannot start {name}: {e}"))?;
-    match ended.status.success() {
-        true => Ok(()),
-        false => Err(String::from_utf8_lossy(&ended.stderr).trim().to_owned()),
-    }
+    let ended = ended.map_err(|e| (Status::Failed, format!("cannot start {name}: {e}")))?;
+    let status = match ended.status.code() {
+        Some(0) => return Ok(()),
+        Some(2) => Status::Usage,
+        Some(3) => Status::Data,
+        _ => Status::Failed,
+    };
+    let said = String::from_utf8_lossy(&ended.stderr);
+    Err(match said.trim() {
+        "" => (status, format!("{name}: {}", ended.status)),
+        said => (status, said.to_owned()),
+    })
 }
 
 /// The hash of a bond file's content as it stands in plans.

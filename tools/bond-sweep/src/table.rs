@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use cli::Failure;
+use cli::{Failure, Status};
 use particle_file::read_table;
 
 use crate::specimen;
@@ -39,7 +39,7 @@ pub struct Table {
 impl Table {
     /// Reads a CSV file with a header; lines that begin with `#` are passed over, and rows of empty
     /// cells alone, which spreadsheets write. Exit 3 for a file that cannot be read or is no CSV, exit 2 for an unknown
-    /// column, a name twice, a row of another length.
+    /// column, a name twice, a row of another length. `-` is standard input.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let name = path.display();
         let text = read_table(path, ROW_AND_CELL)
@@ -103,7 +103,13 @@ impl Table {
 
     /// A sentence about a row, counted from 0 (exit 2).
     pub fn wrong_row(&self, row: usize, what: impl Display) -> Failure {
-        self.wrong(format_args!("row {}: {what}", row + 1))
+        self.failed_row(row, Status::Usage, what)
+    }
+
+    /// As [`Table::wrong_row`], with another exit status.
+    pub fn failed_row(&self, row: usize, status: Status, what: impl Display) -> Failure {
+        let name = self.path.display();
+        Failure::new(status, format!("'{name}': row {}: {what}", row + 1))
     }
 
     /// A sentence about a cell (exit 2).

@@ -39,7 +39,7 @@ Exit status: 0 the results are sound; 1 the run failed (unstable, not sound, can
 (SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, or SIGHUP without nohup), continue with --resume."
 )]
 struct Arguments {
-    /// Case file (TOML)
+    /// Case file (TOML); '-' is standard input
     #[arg(required_unless_present = "reference")]
     case: Option<PathBuf>,
     /// Bond file from build-bondline; '-' is standard input. Without it the case's [[body]]

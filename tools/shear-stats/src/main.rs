@@ -52,6 +52,8 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
+    let read = arguments.snapshots.iter().map(PathBuf::as_path);
+    cli::keep_apart_with_records(read, [&arguments.output])?;
     if let Some(tube) = arguments.tube {
         let line = tube_line(tube);
         if arguments.snapshots.is_empty() {
@@ -59,8 +61,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         cli::note(line);
     }
-    let read = arguments.snapshots.iter().map(PathBuf::as_path);
-    cli::keep_apart_with_records(read, [&arguments.output])?;
     let mut states = Vec::new();
     let mut inputs = Vec::new();
     let snapshots = by_time(arguments.snapshots).map_err(|e| Failure::of_input(e.is_usage(), e))?;

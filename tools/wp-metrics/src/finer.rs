@@ -1,7 +1,7 @@
 //! Error of a state's numbers by the same run in smaller cells.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cli::Failure;
 use metrics::table::PenetrationRows;
@@ -68,13 +68,18 @@ pub fn carry_on(
 /// A table in which the cases of two runs differ by more than cells of these edges (m), where both lie with their states.
 fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<String> {
     let case = |side: usize| -> Option<Table> {
-        let folders = Path::new(states[side]).ancestors().skip(1).take(2);
-        let mut texts = folders.map(|folder| fs::read_to_string(folder.join("resolved.toml")));
+        let mut texts = cases(Path::new(states[side])).map(fs::read_to_string);
         case_without_cells(&texts.find_map(Result::ok)?, cells[side], false)
     };
     let (run, finer) = (case(0)?, case(1)?);
     let mut tables = run.keys().chain(finer.keys());
     tables.find(|key| run.get(*key) != finer.get(*key)).cloned()
+}
+
+/// Where the case of a state may lie.
+pub fn cases(state: &Path) -> impl Iterator<Item = PathBuf> {
+    let folders = state.ancestors().skip(1).take(2);
+    folders.map(|folder| folder.join("resolved.toml"))
 }
 
 /// Whether two states have the same wood, wherever it is now.

@@ -32,6 +32,9 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     fit_together(&arguments, paths.len())?;
     let read = paths.iter();
     let read = read.chain(&arguments.compare).chain(&arguments.finer);
+    let compared = (arguments.finer.iter()).flat_map(|finer| [finer].into_iter().chain(&paths));
+    let cases: Vec<PathBuf> = compared.flat_map(|state| finer::cases(state)).collect();
+    let read = read.chain(&cases);
     cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs(&arguments))?;
     // Which files a stack is read from shows once it is open; nothing is written before.
     let open = |path: &PathBuf| {

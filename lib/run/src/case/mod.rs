@@ -7,11 +7,10 @@ mod reference;
 mod schema;
 mod value;
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use particle_file::limits;
+use particle_file::{limits, open};
 
 pub(crate) use adhesive::{Adhesive, CureTable, WaterTable};
 pub use reference::REFERENCE;
@@ -24,7 +23,7 @@ pub(crate) use value::{BodyVelocity, EdgeLength, StopRule};
 
 use crate::failure::RunFailure;
 
-/// The text of a case file.
+/// The text of a case file; `-` is standard input.
 /// Errors: exit 2 if it cannot be read, is too long, or is no text.
 pub(crate) fn case_text(path: &Path) -> Result<String, RunFailure> {
     let refused = |why: String| {
@@ -34,7 +33,7 @@ pub(crate) fn case_text(path: &Path) -> Result<String, RunFailure> {
         ))
     };
     let mut bytes = Vec::new();
-    File::open(path)
+    open(path)
         .and_then(|file| file.take(limits::CASE + 1).read_to_end(&mut bytes))
         .map_err(|e| refused(e.to_string()))?;
     if bytes.len() as u64 > limits::CASE {
