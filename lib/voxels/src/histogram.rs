@@ -113,15 +113,9 @@ impl Histogram {
     /// stack.
     pub fn of(stack: &Stack, crop: &Crop) -> Result<Self, Error> {
         crop.check(stack.dims())?;
-        stack.check_numbers()?;
+        stack.check_grey()?;
         stack.fits(stack.reading_bytes())?;
         let format = stack.format();
-        if format.channels > 1 {
-            return Err(Error::Usage(format!(
-                "{}: a histogram is made of one number a pixel, and its pages are {format}",
-                stack.name()
-            )));
-        }
         let scale = match Scale::of(format.sample) {
             Some(scale) => scale,
             None => Self::scale(stack, crop)?,

@@ -2,7 +2,7 @@
 //! to TIFF.
 //!
 //! [`Stack`] opens TIFF in its many variants, folders of slices (BMP, PNG, JPEG too), `.npy`,
-//! `.npz`, MetaImage, NRRD, NIfTI and raw volumes; [`Histogram`] counts grey values and proposes thresholds;
+//! `.npz`, MetaImage, NRRD, NIfTI and raw volumes; [`Histogram`] counts grey values, proposes thresholds and tells the noise;
 //! [`segment`] sorts its voxels into [`Phases`], page by page. [`LabelVolume`] is
 //! the other way: what a particle file holds, liquid by its volume, as labels; [`TiffWriter`] writes them.
 //! A stack is indexed (z = page, y = row, x = column), x fastest.
@@ -13,6 +13,7 @@ mod coder;
 mod colours;
 mod crop;
 mod cuts;
+mod denoise;
 mod despeckle;
 mod error;
 mod fields;
@@ -28,6 +29,7 @@ mod levels;
 mod mhd;
 mod names;
 mod nifti;
+mod noise;
 mod npy;
 mod npz;
 mod nrrd;
@@ -55,6 +57,7 @@ pub use histogram::Histogram;
 pub use label::Label;
 pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
 pub use lattice::pieces;
+pub use noise::Doubt;
 pub use otsu::{GreyLevels, Proposal};
 pub use phases::{Grey, Labels, Phase, Phases};
 pub use raw::{Dims, RawType};

@@ -115,6 +115,19 @@ impl Grey {
         }
     }
 
+    /// The same with its thresholds moved by so much; its upper end stays.
+    pub fn moved(&self, by: f64) -> Self {
+        let end = self
+            .adhesive
+            .map_or(self.wood.1, |(_, high)| high.max(self.wood.1));
+        let moved = |v: f64| if v == end { v } else { v + by };
+        let both = |(low, high)| (moved(low), moved(high));
+        Self {
+            wood: both(self.wood),
+            adhesive: self.adhesive.map(both),
+        }
+    }
+
     /// Void below the first threshold, wood from there on, adhesive from the second on where there is
     /// one. What is at `top` and above is void again. `whole` numbers end at the last before the next.
     pub(crate) fn of_thresholds(thresholds: &[f64], top: Option<f64>, whole: bool) -> Self {

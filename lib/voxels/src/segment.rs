@@ -100,19 +100,16 @@ pub fn segment(
 /// this process may have.
 pub fn check(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<(), Error> {
     crop.check(stack.dims())?;
-    if !matches!(phases, Phases::Labels(labels) if labels.are_colours()) {
-        stack.check_numbers()?;
+    match phases {
+        Phases::Grey(_) => stack.check_grey()?,
+        Phases::Labels(labels) if labels.are_colours() => {}
+        _ => stack.check_numbers()?,
     }
-    let by_grey = matches!(phases, Phases::Grey(_));
-    let wrong = if by_grey && stack.format().channels > 1 {
-        "grey values are asked for but its pixels are R:G:B; give R:G:B labels instead"
-    } else if !by_grey && stack.is_lossy() {
-        "the compression of JPEG changes values, so that no labels survive it; give grey values by --grey"
-    } else {
-        ""
-    };
-    if !wrong.is_empty() {
-        return Err(Error::Usage(format!("{}: {wrong}", stack.name())));
+    if !matches!(phases, Phases::Grey(_)) && stack.is_lossy() {
+        return Err(Error::Usage(format!(
+            "{}: the compression of JPEG changes values, so that no labels survive it; give grey values by --grey",
+            stack.name()
+        )));
     }
     let [nx, ny, nz] = crop.dims().map(|n| n as u64);
     let words = limits::volume([nx.div_ceil(u64::BITS.into()), ny, nz]);

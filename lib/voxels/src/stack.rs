@@ -123,7 +123,7 @@ impl Stack {
     }
 
     /// A stack that declares no more voxels than its files can be worth, and whose pages are labelled alike.
-    fn new(name: String, volume: Volume, gap: Option<String>) -> Result<Self, Error> {
+    pub(crate) fn new(name: String, volume: Volume, gap: Option<String>) -> Result<Self, Error> {
         let mut stack = Self {
             name,
             volume,
@@ -192,6 +192,18 @@ impl Stack {
             "{}: the values 0, 1, ... show {a} but {b}, so that no number is a label of the stack: give the colours as R:G:B in --labels",
             self.name
         )))
+    }
+
+    /// Refuses to take grey values of pixels that are not one number.
+    pub(crate) fn check_grey(&self) -> Result<(), Error> {
+        self.check_numbers()?;
+        match self.format().channels {
+            1 => Ok(()),
+            _ => Err(Error::Usage(format!(
+                "{}: grey values are asked for but its pixels are R:G:B; give R:G:B labels instead",
+                self.name
+            ))),
+        }
     }
 
     /// The voxel size that the metadata state, if they do.

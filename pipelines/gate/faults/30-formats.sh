@@ -27,6 +27,18 @@ for name in otsu-clean.tif otsu-one-zinger.tif; do
 done
 acer='$TOP/pipelines/examples/acer/bondline-acer-64x192x128.tif --voxel 1.45um'
 fault "wood and void exchanged" "they look exchanged (2)" "xct2particles $acer --labels void=128,wood=0,adhesive=255 -o s.mpts"
+bond='$IN/turn4/crop.tif --voxel 1.45um'
+fault "words of exchanged labels at a crop near a thick bond line" "0 (1)" "xct2particles $bond --labels void=0,wood=128,adhesive=255 -o s.mpts 2>&1 | grep -c exchanged"
+fault "the same, wood and void exchanged" "they look exchanged (2)" "xct2particles $bond --labels void=128,wood=0,adhesive=255 -o s.mpts"
+fault "the same, wood and adhesive exchanged" "a warning (0)" "xct2particles $bond --labels void=0,wood=255,adhesive=128 -o s.mpts 2>&1 | grep -e exchanged -e 'bond area' | head -1"
+corners='for (i = 0; i < 70 * 70 * 8; i++) printf "%c", (i + 1) % 70 % 14 < 4 && (int(i / 70) + 1) % 70 % 14 < 4 ? 2 : 1'
+fault "thin walls of which corners are left" "no word of exchanged phases (0)" "LC_ALL=C awk 'BEGIN { $corners }' >a.raw; xct2particles a.raw --dims 70x70x8 --type u8 --voxel 1um --labels void=1,wood=2 -o s.mpts"
+# Void, wood and adhesive of means 60, 130, 200, and noise with a deviation of 20.
+noisy='for (i = 0; i < 96000; i++) { y = int(i / 40) % 60; v = y >= 26 && y < 34 ? 200 : y % 38 >= 8 && y % 38 < 14 ? 60 : 130
+    for (k = 0; k < 12; k++) v += 20 * (rand() - 0.5); printf("%c", v < 1 ? 1 : (v > 255 ? 255 : int(v))) }'
+for more in "" " --denoise"; do
+    fault "noise of 29 % of the contrast$more" "EP of 16 um in its interval (0)" "LC_ALL=C awk 'BEGIN { $noisy }' >a.raw; xct2particles a.raw --dims 40x60x40 --type u8 --voxel 2um --grey auto$more -o s.mpts 2>&1 | grep -e 'in doubt' -e '^adhesive' -e error | sed 's/.*\(in doubt\).*\(EP\)/\1: \2/' | head -1"
+done
 fault "a preview alone" "a PNG (0)" "xct2particles $acer --preview look.png 2>/dev/null; head -c 4 look.png | tail -c 3"
 fault "one voxel of noise, --despeckle 1" "1 voxels of adhesive (0)" '{ printf "NDims = 3\nDimSize = 9 9 9\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n"; head -c 400 /dev/zero | tr "\0" "\1"; printf "\2"; head -c 328 /dev/zero; } >a.mha; xct2particles a.mha --voxel 1.45um --labels void=0,wood=1,adhesive=2 --despeckle 1 -o s.mpts 2>&1 | grep -o -e "[0-9]* voxels of adhesive" -e "error.*"'
 fault "32-bit BMP" "wood 1 voxels (0)" '{ printf "BM\76\0\0\0\0\0\0\0\66\0\0\0\50\0\0\0\2\0\0\0\1\0\0\0\1\0\40\0\0\0\0\0"; head -c 20 /dev/zero; printf "\0\0\0\377\1\1\1\377"; } >a.bmp; xct2particles a.bmp --voxel 1.45um --labels void=0:0:0,wood=1:1:1 -o s.mpts 2>&1 | '"$counts"

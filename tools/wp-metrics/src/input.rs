@@ -204,6 +204,16 @@ fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<
     let phases = phases(&stack, arguments)?;
     let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
     voxels.swapped().into_iter().for_each(cli::warn);
+    if let Phases::Grey(grey) = &phases {
+        let histogram = Histogram::of(&stack, &whole).map_err(stack_failure)?;
+        let doubt = histogram.doubt(grey);
+        if doubt.overlaps() {
+            cli::warn(format_args!(
+                "{}: phases overlap: {doubt}; xct2particles tells what that does to penetration, and --denoise there takes noise out",
+                stack.name()
+            ));
+        }
+    }
     if let Some([void, wood, adhesive]) = voxels.guessed {
         cli::note(format!(
             "{}: labels taken as void={void}, wood={wood}, adhesive={adhesive}",

@@ -19,7 +19,7 @@ use voxels::{Crop, Dims, GreyLevels, Labels, RawType};
     after_help = "Examples:
   xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
   xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
-  xct2particles scan/ --voxel 1.45um --grey auto --despeckle 2 --preview look.png
+  xct2particles scan/ --voxel 1.45um --grey auto --denoise --despeckle 2 --preview look.png
   xct2particles tilted.tif --voxel 1.45um --level y -o level.mpts
   xct2particles undamaged.tif --voxel 1.45um --grey auto-wood -o wood.mpts
   xct2particles scan.raw --dims 400x394x400 --type u16 --voxel 1.45um --histogram grey.csv
@@ -55,6 +55,10 @@ pub(crate) struct Arguments {
     /// faces around them
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) despeckle: Option<u16>,
+    /// Take noise out of the grey values first, by the median of each voxel and its neighbours at faces, edges and corners.
+    /// What is one voxel thin may go with it
+    #[arg(long, requires = "grey")]
+    pub(crate) denoise: bool,
     /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its
     /// centre, the box shrinks to fit within the stack, and this axis becomes the bond normal of the file
     #[arg(long, value_name = "AXIS")]

@@ -1,6 +1,7 @@
 //! A label stack as a particle file of a specimen.
 
 mod arguments;
+mod doubt;
 mod report;
 
 use std::fs::File;
@@ -13,6 +14,7 @@ use arguments::Arguments;
 use bondline::{PlacedVoxels, Specimen};
 use cli::{Failure, Output, Progress};
 use figures::{Cut, Page, Position, Slices};
+use metrics::Tilt;
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use rayon::prelude::*;
 use units::Axis;
@@ -38,7 +40,13 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         output.iter().chain(histogram).chain(preview),
     )?;
     let crop = kept(&stack, &arguments);
-    let proposed = proposal(&stack, &crop, &arguments)?;
+    let denoised = denoised(&stack, &crop, &arguments)?;
+    let whole = Crop::whole(crop.dims());
+    let (values, kept) = match &denoised {
+        Some(denoised) => (denoised, &whole),
+        None => (&stack, &crop),
+    };
+    let proposed = proposal(values, kept, &arguments)?;
     if output.is_none() && preview.is_none() {
         return Ok(());
     }
@@ -58,7 +66,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     // Hashing a large file takes minutes: what cannot be read is refused before.
     voxels::check(&stack, &phases, &crop).map_err(failure)?;
     let hashed = output.as_ref().map_or(&[][..], |_| stack.sources());
-    let (segmented, inputs) = rayon::join(|| read_pages(&stack, &phases, &crop), || hashes(hashed));
+    let (segmented, inputs) = rayon::join(|| read_pages(values, &phases, kept), || hashes(hashed));
     let (mut segmented, inputs) = (segmented?, inputs?);
     if let Some(most) = arguments.despeckle {
         report::despeckled(&segmented.despeckle(most.into()), most);
@@ -66,12 +74,33 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         report::noise(&segmented);
     }
     if let Some(normal) = arguments.level {
-        level(&mut segmented, normal, &edge, stack.name())?;
+        let refused = |why| Failure::usage(format!("{}: --level {normal}: {why}", stack.name()));
+        let tilt = level(&mut segmented, normal, &edge).map_err(refused)?;
+        report::level(&tilt, segmented.wood.dims());
+    }
+    if let Phases::Grey(grey) = &phases {
+        let prepared = |segmented: &mut Segmented| {
+            if let Some(most) = arguments.despeckle {
+                segmented.despeckle(most.into());
+            }
+            let level = |normal| level(segmented, normal, &edge).map(|_| ());
+            arguments.level.map_or(Ok(()), level)
+        };
+        let doubt = Histogram::of(values, kept).map_err(failure)?.doubt(grey);
+        if doubt.share > 0.0 {
+            let bond = (edge.metres, across(&arguments));
+            let moved = doubt::moved((values, kept), (grey, doubt), bond, prepared);
+            let cure = match arguments.denoise {
+                true => "look at it by --preview",
+                false => "--denoise takes noise out",
+            };
+            report::doubt(doubt, &moved.map_err(failure)?, cure);
+        }
     }
     report::phases(&segmented, edge.metres, across(&arguments));
     let draft = draft(&segmented, &edge, &crop, &arguments, inputs);
     if let Some(preview) = preview {
-        draw(&draft, &stack, &phases, &arguments, preview)?;
+        draw(&draft, (values, kept), &phases, &arguments, preview)?;
     }
     let cure = "check with --preview, or exchange the two in --labels or --grey";
     let swapped = segmented.swapped().map(|said| format!("{said}; {cure}"));
@@ -113,21 +142,14 @@ fn across(arguments: &Arguments) -> Axis {
     arguments.level.unwrap_or(Axis::Y)
 }
 
-/// Turns a specimen until its bond plane is level across `normal`.
-fn level(
-    segmented: &mut Segmented,
-    normal: Axis,
-    edge: &VoxelEdge,
-    name: &str,
-) -> Result<(), Failure> {
+/// Turns a specimen until its bond plane is level across `normal`; its tilt before, or why it cannot.
+fn level(segmented: &mut Segmented, normal: Axis, edge: &VoxelEdge) -> Result<Tilt, String> {
     let parts = [&segmented.wood, &segmented.adhesive];
     let [wood, adhesive] = parts.map(|bits| PlacedVoxels::at_origin(bits.view(), edge.metres));
-    let refused = |why: String| Failure::usage(format!("{name}: --level {normal}: {why}"));
-    let specimen = Specimen::new(wood, adhesive).map_err(|why| refused(why.to_string()))?;
-    let turned = metrics::level(&specimen, normal).map_err(refused)?;
-    report::level(&turned);
+    let specimen = Specimen::new(wood, adhesive).map_err(|why| why.to_string())?;
+    let turned = metrics::level(&specimen, normal)?;
     (segmented.wood, segmented.adhesive) = (turned.wood, turned.adhesive);
-    Ok(())
+    Ok(turned.tilt)
 }
 
 /// Refuses what looks wrong, or warns of it where it is to go on `really`.
@@ -148,7 +170,7 @@ fn looks_wrong(said: Option<String>, really: bool) -> Result<(), Failure> {
 /// taken from.
 fn draw(
     draft: &Draft,
-    stack: &Stack,
+    (stack, crop): (&Stack, &Crop),
     phases: &Phases,
     arguments: &Arguments,
     preview: &Output,
@@ -158,8 +180,7 @@ fn draw(
     if turned {
         cli::note("preview     without grey values: --level turns only labels");
     }
-    let crop = kept(stack, arguments);
-    let greys = (by_grey && !turned).then(|| stack.middle_cuts(&crop));
+    let greys = (by_grey && !turned).then(|| stack.middle_cuts(crop));
     let greys = greys.transpose().map_err(failure)?;
     let name = arguments.stack[0].file_name().unwrap_or_default();
     let mut bytes = Vec::new();
@@ -201,22 +222,34 @@ fn failure(error: voxels::Error) -> Failure {
 }
 
 fn read_pages(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<Segmented, Failure> {
+    let read = |on_page: &(dyn Fn() + Sync)| segment(stack, phases, crop, on_page);
+    shown("reading pages", crop, read).map_err(failure)
+}
+
+/// What the noise was taken out of, where that is asked for.
+fn denoised(stack: &Stack, crop: &Crop, arguments: &Arguments) -> Result<Option<Stack>, Failure> {
+    let filter = |on_page: &(dyn Fn() + Sync)| stack.denoised(crop, on_page);
+    let denoised = (arguments.denoise).then(|| shown("taking noise out", crop, filter));
+    denoised.transpose().map_err(failure)
+}
+
+/// What `work` on the pages of `crop` makes, with its progress shown.
+fn shown<T>(what: &str, crop: &Crop, work: impl FnOnce(&(dyn Fn() + Sync)) -> T) -> T {
     let total = crop.dims()[2];
-    let progress = Mutex::new(Progress::new("reading pages"));
+    let progress = Mutex::new(Progress::new(what));
     let done = AtomicUsize::new(0);
-    let on_page = || {
+    let made = work(&|| {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         // A page that finds the bar in use need not wait for it.
         if let Ok(mut progress) = progress.try_lock() {
             let end = ("read, {} left", done as f64 / total as f64);
             progress.update(&[end], || format!("page {done} of {total}"));
         }
-    };
-    let segmented = segment(stack, phases, crop, on_page).map_err(failure);
+    });
     if let Ok(progress) = progress.into_inner() {
         progress.finish();
     }
-    segmented
+    made
 }
 
 /// Path and hash of every file read.
@@ -245,6 +278,9 @@ fn draft<'a>(
     header.set_attribute("voxel_from", edge.from);
     if let Some(most) = arguments.despeckle {
         header.set_attribute("despeckle", most.to_string());
+    }
+    if arguments.denoise {
+        header.set_attribute("denoise", "median of 3 x 3 x 3 voxels");
     }
     if let Some(normal) = arguments.level {
         header.set_attribute("level", normal.to_string());

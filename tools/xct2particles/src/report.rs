@@ -1,8 +1,8 @@
 //! Messages of the tool on standard error.
 
-use metrics::LevelledSpecimen;
+use metrics::Tilt;
 use units::Axis;
-use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
+use voxels::{Crop, Despeckled, Doubt, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -78,12 +78,19 @@ pub(crate) fn noise(specimen: &Segmented) {
     }
 }
 
+/// How much of a segmentation by grey values the noise decides, what thresholds `moved` by it give, and the `cure`.
+pub(crate) fn doubt(doubt: Doubt, moved: &str, cure: &str) {
+    let said = format!("{doubt}; with thresholds moved by it {moved}");
+    match doubt.overlaps() {
+        true => cli::warn(format_args!("phases overlap: {said}; {cure}")),
+        false => cli::note(format_args!("noise       {said}")),
+    }
+}
+
 /// How a specimen was turned.
-pub(crate) fn level(turned: &LevelledSpecimen) {
-    let [x, y, z] = turned.wood.dims();
+pub(crate) fn level(tilt: &Tilt, [x, y, z]: [usize; 3]) {
     cli::note(format_args!(
-        "level       the bond plane was {}; after levelling, {x} x {y} x {z} voxels are left",
-        turned.tilt
+        "level       the bond plane was {tilt}; after levelling, {x} x {y} x {z} voxels are left"
     ));
 }
 
@@ -111,9 +118,7 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
             cli::warn("no voxel is wood");
         }
     }
-    if adhesive > wood {
-        cli::warn("more voxels are adhesive than wood: are the labels exchanged?");
-    }
+    specimen.walls_of_adhesive().into_iter().for_each(cli::warn);
     let um = edge * 1e6;
     let columns = total / dims[normal.index()];
     let area = columns as f64 * um * um;

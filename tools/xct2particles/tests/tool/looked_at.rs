@@ -73,6 +73,57 @@ fn phases_that_look_exchanged_are_refused() {
     told(&bench, "crack.tif -o o.mpts", 0, &[]);
 }
 
+/// Walls that the resolution broke leave corners, which are many pieces of wood in one of void.
+#[test]
+fn broken_thin_walls_are_not_exchanged_phases() {
+    let bench = bench();
+    // Walls of two voxels around lumens of 12, and corners of 4 that stay of them.
+    let wall = |i: usize| i % 14 < 2;
+    let corner = |i: usize| (i + 1) % 14 < 4;
+    bench.write(
+        "whole.tif",
+        tiff([70, 70, 8], |x, y, _| u8::from(wall(x) || wall(y))),
+    );
+    bench.write(
+        "broken.tif",
+        tiff([70, 70, 8], |x, y, _| u8::from(corner(x) && corner(y))),
+    );
+    for stack in ["whole.tif", "broken.tif"] {
+        let said = told(
+            &bench,
+            &format!("{stack} --labels void=0,wood=1 -o o.mpts"),
+            0,
+            &[],
+        );
+        assert!(!said.contains("exchanged"), "{stack}: {said}");
+    }
+    let exchanged = "whole.tif --labels void=1,wood=0 -o o.mpts";
+    told(&bench, exchanged, 2, &["wood and void look exchanged"]);
+}
+
+/// A crop near a thick bond line has more adhesive than wood; what borders on lumens tells wood from adhesive.
+#[test]
+fn adhesive_is_taken_for_wood_only_where_it_has_the_lumens() {
+    let bench = bench();
+    let label = |x: usize, y: usize, _| match y {
+        20..60 => 2,
+        _ => u8::from(x % 7 < 2 || y % 7 < 2),
+    };
+    bench.write("near.tif", tiff([70, 80, 8], label));
+    let run = |labels: &str| {
+        told(
+            &bench,
+            &format!("near.tif --labels {labels} -o o.mpts"),
+            0,
+            &[],
+        )
+    };
+    let said = run("void=0,wood=1,adhesive=2");
+    assert!(!said.contains("exchanged"), "{said}");
+    let said = run("void=0,wood=2,adhesive=1");
+    assert!(said.contains("are the labels exchanged?"), "{said}");
+}
+
 /// Grey values brought noise along without a word.
 #[test]
 fn specks_are_told_and_taken_out_where_that_is_asked_for() {
