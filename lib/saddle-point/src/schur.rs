@@ -12,7 +12,7 @@ use crate::vector::{Real, Work, for_each};
 /// viscosity around a cell, is what that part lacks of the inverse diagonal.
 pub(crate) struct Schur {
     amg: Amg,
-    /// Sealed pockets, whose mean pressures are not changed here.
+    /// Sealed pockets, whose mean pressures are not changed here, and leaking ones.
     pub(crate) sealed: Sealed,
     viscous: Vec<Work>,
     friction_part: Vec<Work>,
@@ -34,13 +34,14 @@ impl Schur {
         })
     }
 
-    /// `p = -S^-1 r` without the means over sealed pockets, which are removed from `r`.
+    /// `p = -S^-1 r`, without the means over sealed pockets. The means over all pockets are removed from `r`.
     pub(crate) fn apply_negative(&mut self, r: &mut [Work], p: &mut [Work]) {
-        self.sealed.remove_mean(r);
+        let means = self.sealed.remove_means(r);
         self.amg.cycle(r, &mut self.friction_part);
-        self.sealed.remove_mean(&mut self.friction_part);
+        self.sealed.remove_means(&mut self.friction_part);
         let (viscous, friction_part) = (&self.viscous[..], &self.friction_part[..]);
         for_each(p, |i, p| *p = -(friction_part[i] + viscous[i] * r[i]));
+        self.sealed.subtract_leak_pressures(&means, p);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Mean pressures of sealed liquid, which the multigrid cycle cannot resolve.
+//! Mean pressures of sealed and leaking liquid, which the multigrid cycle cannot resolve.
 
 use crate::components::components;
 use crate::csr::{Csr, value_at};
@@ -9,27 +9,36 @@ use crate::vector::Real;
 const SEALED: f64 = 1e-6;
 /// Row sums below this fraction are rounding in double precision.
 const ROUNDING: f64 = 1e-13;
+/// Estimated leak over compressibility from which a pocket leaks. Below it the leak is left out, which does no harm until it is
+/// a hundred times the estimate.
+const LEAKING: f64 = 1e-2;
 /// Net displaced volume in a pocket, over the sum of its absolute values, below which it is rounding: the body carries the
 /// pocket along.
 const CARRIED: f64 = 1e-6;
 
 /// Pockets of liquid that are sealed, or nearly: connected cells on which the Poisson operator is singular, or nearly. Almost no
-/// flow changes their volume, so their mean residual depends on mean pressure and bodies only: `-C p + s V`, with leaks counted
-/// to C.
+/// flow changes the volume of a sealed one, so its mean residual depends on mean pressure and bodies only: `-C p + s V`. That of
+/// a leaking one depends on the flow through its openings, whose resistance the operator only estimates.
 pub(crate) struct Sealed {
     /// Cells of each pocket.
     pockets: Vec<Vec<u32>>,
-    /// Number of cells over the sum of `C`, for each pocket; 0 if that sum is zero.
+    /// Number of cells over the sum of `C`, for each pocket; 0 if that sum is zero, or if the pocket leaks.
     stiffness: Vec<f64>,
+    /// Number of cells over the estimated leak, for each pocket; 0 if it is sealed.
+    leak_stiffness: Vec<f64>,
 }
 
 impl Sealed {
     /// The sealed pockets of the Poisson operator `matrix` with compressibilities `c`.
     pub(crate) fn find(matrix: &Csr<f64>, c: &[f64]) -> Self {
-        let (mut pockets, mut stiffness) = (Vec::new(), Vec::new());
+        let mut found = Self {
+            pockets: Vec::new(),
+            stiffness: Vec::new(),
+            leak_stiffness: Vec::new(),
+        };
         let neighbours = |row: u32| matrix.row(row as usize).0.iter().copied();
         for pocket in components(matrix.n_rows(), neighbours) {
-            let (mut leak, mut whole, mut soft) = (0.0_f64, 0.0, 0.0_f64);
+            let (mut leak, mut whole, mut soft) = (0.0_f64, 0.0, 0.0);
             for row in pocket.iter().map(|&row| row as usize) {
                 leak += matrix.row(row).1.iter().sum::<f64>();
                 whole += value_at(matrix.row(row), row);
@@ -38,17 +47,22 @@ impl Sealed {
             if leak.abs() > SEALED * whole {
                 continue;
             }
-            let soft = soft.max(if leak > ROUNDING * whole { leak } else { 0.0 });
             let cells = pocket.len() as f64;
-            stiffness.push(if soft > 0.0 { cells / soft } else { 0.0 });
-            pockets.push(pocket);
+            let [sealed, leaking] = match leak - soft > (ROUNDING * whole).max(LEAKING * soft) {
+                true => [0.0, cells / leak],
+                false if soft > 0.0 => [cells / soft, 0.0],
+                false => [0.0; 2],
+            };
+            found.stiffness.push(sealed);
+            found.leak_stiffness.push(leaking);
+            found.pockets.push(pocket);
         }
-        Self { pockets, stiffness }
+        found
     }
 
-    /// Whether there are no sealed pockets.
+    /// Whether all pockets leak, if there are any.
     pub(crate) fn is_empty(&self) -> bool {
-        self.pockets.is_empty()
+        self.stiffness.iter().all(|stiffness| *stiffness == 0.0)
     }
 
     /// Mean over each pocket.
@@ -70,9 +84,18 @@ impl Sealed {
         }
     }
 
-    /// Subtracts the mean over each pocket.
-    pub(crate) fn remove_mean<T: Real>(&self, x: &mut [T]) {
-        self.subtract(&self.means(x), x);
+    /// Subtracts the mean over each pocket; returns the means.
+    pub(crate) fn remove_means<T: Real>(&self, x: &mut [T]) -> Vec<f64> {
+        let means = self.means(x);
+        self.subtract(&means, x);
+        means
+    }
+
+    /// Subtracts the estimated mean pressures of leaking pockets due to mean volume residuals.
+    pub(crate) fn subtract_leak_pressures<T: Real>(&self, residuals: &[f64], p: &mut [T]) {
+        let pressures = residuals.iter().zip(&self.leak_stiffness);
+        let pressures: Vec<f64> = pressures.map(|(r, s)| r * s).collect();
+        self.subtract(&pressures, p);
     }
 
     /// Mean over each pocket of the volumes `column` that a body displaces at unit speed; 0 if it carries the pocket along.
@@ -115,11 +138,13 @@ mod tests {
     }
 
     #[test]
-    fn what_leaks_counts_with_what_yields_unless_it_is_rounding() {
-        let stiffness = |leak| sealed(leak).stiffness;
-        assert_eq!(stiffness(2e-15), [2.0 / 4e-17]);
-        assert!((stiffness(1e-9)[0] * 1e-9 - 1.0).abs() < 1e-6);
-        assert!(stiffness(3e-6).is_empty());
+    fn what_leaks_more_than_it_yields_is_not_sealed_unless_by_rounding() {
+        let of = |leak| sealed(leak);
+        assert_eq!(of(2e-15).stiffness, [2.0 / 4e-17]);
+        assert_eq!(of(2e-15).leak_stiffness, [0.0]);
+        assert_eq!(of(1e-9).stiffness, [0.0]);
+        assert!((of(1e-9).leak_stiffness[0] * 1e-9 - 1.0).abs() < 1e-6);
+        assert!(of(3e-6).pockets.is_empty());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-# Runs: signals, write protection, checkpoints of other builds, and bodies beside periodic and symmetry sides.
+# Runs: signals, write protection, checkpoints of other builds, bodies beside periodic and symmetry sides, linear systems.
 
 scenes='$IN/scenes/4-periodic-bodies'
 # A block at rest over a floor for seconds of computing.
@@ -25,3 +25,4 @@ for place in middle across beyond; do
 done
 # A lid that shears 8 um of 1 Pa s at 10 m/s: 1.0e-4 W, however far it has gone.
 fault "a lid that goes over five periods, explicit" "1.0e-4 W (0)" "sed 's/name = \"block\"/name = \"lid\"/; s/\"-1 m\/s\"/\"0 m\/s\"/; s/\"2 um\", \"5 um\"/\"0 um\", \"10 um\"/; s/\"4 um\", \"7 um\"/\"8 um\", \"12 um\"/; s/\"0 um\", \"9 um\"/\"0 um\", \"2 um\"/' $scenes/pass-through.toml >c.toml; mpm-run c.toml -q -o r && awk -F, 'END { printf \"%.1e W\\n\", \$10 }' r/history.csv"
+fault "Newtonian liquid over a slit of one voxel" "sound (0)" 'p=$IN/turn4/presses; mpm-run $p/newt.toml --particles $p/slot1-14.5.mpts -q -o r && echo sound'
