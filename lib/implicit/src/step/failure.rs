@@ -39,15 +39,15 @@ impl Implicit {
                  correct, a smaller integrator.cfl may help"
             ),
             SolveError::Unsolved { error, cause } => {
-                format!("{error}: {}", advice(*cause, self.setup.lattice.k))
+                format!("{error}: {}", advice(*cause))
             }
             _ => error.to_string(),
         }
     }
 }
 
-/// What to change in a case, with cells of `k` voxels.
-fn advice(cause: Cause, k: usize) -> String {
+/// What to change in a case.
+fn advice(cause: Cause) -> String {
     match cause {
         Cause::Unbalanced { cells } => format!(
             "walls move into {cells} cells of enclosed liquid, which has no outlet and can only be compressed; a \
@@ -61,9 +61,6 @@ fn advice(cause: Cause, k: usize) -> String {
             "inertia, rho h^2/(eta dt), is {ratio:.0e} times the viscous stress in a cell: a higher viscosity, an earlier \
              end if nothing flows any more, or scheme = \"explicit\" is needed"
         ),
-        Cause::Unknown if k == 2 => "if liquid leaves only through openings of one voxel, grid.cell = \"1 voxel\" is \
-                                     needed; a smaller integrator.cfl makes the linear systems easier"
-            .into(),
         Cause::Unknown => {
             "a smaller integrator.cfl makes the linear systems easier, a larger \
                            integrator.tolerance relaxes them"

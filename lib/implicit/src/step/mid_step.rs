@@ -32,15 +32,6 @@ pub(super) struct MidStep {
     pub(super) water_loss: Option<WaterExchange>,
 }
 
-impl MidStep {
-    /// Whether some pore is full here that is not in `other`.
-    pub(super) fn has_more_full_pores(&self, other: &Self) -> bool {
-        let both = self.fractions.iter().zip(&other.fractions);
-        both.into_iter()
-            .any(|(&here, &there)| here == 1.0 && there < 1.0)
-    }
-}
-
 /// A void: connected pores that are not full, in a step.
 pub(super) struct Void {
     pub(super) pores: Vec<u32>,

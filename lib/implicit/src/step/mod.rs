@@ -195,12 +195,7 @@ impl Implicit {
                 .map_err(fail)?;
             solved.before = (start_time, pressures);
             dries = solved.dries_too_fast().is_some();
-            let better = self.better_length(&mut solved, limit, &mut attempts);
-            if std::env::var_os("DBG").is_some() {
-                for v in self.voids(&solved.trial.middle.mesh, &self.full_pores(), &solved.flow, solved.trial.middle.end_height) { if v.inflow != 0.0 { eprintln!("   void of {} inflow {:.4} free {:.4}", v.pores.len(), v.inflow * dt, v.free); } }
-                eprintln!("step {} t {:.5e} h {:.5} dt {dt:.4e} V {:.4e} p {:.4e} it {} settled {} better {better:?} courant {:.3e} left {:.4e} of {:?}", self.state.steps, self.state.time, self.height(), solved.flow.speed, self.pressures(&solved.flow, &solved.forces)[2], solved.flow.iterations, solved.settled, dt*length::courant_speed(&solved.flow, self.setup.settings.cfl), self.travel_left(limit), self.state.flow_of);
-            }
-            let Some(length) = better else {
+            let Some(length) = self.better_length(&mut solved, limit, &mut attempts) else {
                 self.check_pressure(&solved.flow)?;
                 return Ok(solved);
             };
