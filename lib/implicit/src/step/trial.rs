@@ -20,7 +20,10 @@ use crate::system::{
 /// below it and are solved once; results hardly depend on it up to 0.1.
 const MAX_OVERFILL: f64 = 0.03;
 /// Bound on the positions of gap and liquid that a step tries: they converge in one or two, or not at all.
-const MAX_POSITIONS: usize = 4;
+const MAX_POSITIONS: usize = 6;
+
+/// Accepted errors of the height of the gap, over that of an iteration: that at which the search ends, and one at which it may.
+const POSITION_TOLERANCE: [f64; 2] = [3.0, 10.0];
 
 /// The trial of a step. Each pass changes the parts that disagree with the flow found.
 pub(super) struct Trial {
@@ -272,13 +275,13 @@ impl Implicit {
         let end = self.end_height(middle.dt, flow.speed);
         let [assumed, found] = [middle.end_height, end].map(|end| 0.5 * (self.height() + end));
         // Flow goes with the cube of the height, but another solve costs as much as a step.
-        let is_off = (found - assumed).abs() > 3.0 * ITERATION_TOLERANCE * assumed;
+        let off = (found - assumed).abs() / (ITERATION_TOLERANCE * assumed);
         let voids = self.overfilled(middle, flow, end);
-        if voids.is_empty() && !is_off {
+        if voids.is_empty() && off <= POSITION_TOLERANCE[0] {
             return Ok(true);
         }
         if trial.positions == MAX_POSITIONS {
-            return Ok(!is_off);
+            return Ok(off <= POSITION_TOLERANCE[1]);
         }
         // A faster clamp may fill pores that were not full before. A slower one keeps the pores that were full, or the
         // iteration would oscillate.

@@ -70,7 +70,6 @@ fn course(depth: usize, cfl: f64) -> Vec<Step> {
 fn ratios(coarse: &[Step], fine: &[Step]) -> Vec<f64> {
     let ratio = |step: &Step| {
         let [start, end] = step.travel;
-        println!("{:.3} {:.3} p {:.4e} fine {:?}", start/VOXEL, end/VOXEL, step.pressure, fine.iter().filter(|o| (o.travel[1]-end).abs()<0.25*VOXEL).map(|o| (((o.travel[1]/VOXEL)*1e3).round()/1e3, (o.pressure*1e-3).round())).collect::<Vec<_>>());
         let near = |other: &&Step| (other.travel[1] - end).abs() <= 0.1 * (end - start) + 0.05 * VOXEL;
         let ratios = (fine.iter().filter(near)).map(|other| step.pressure / other.pressure);
         let nearest = |a: f64, b: f64| if a.ln().abs() < b.ln().abs() { a } else { b };
