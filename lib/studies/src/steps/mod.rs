@@ -67,7 +67,8 @@ impl Press {
     fn errors(&self, fine: &Self) -> [f64; 8] {
         let of = |i: usize| self.numbers[i] / fine.numbers[i] - 1.0;
         let mut kinds = vec![Vec::new(); 3];
-        for i in 0..self.course[0].len() {
+        // The pressure of the last step is that of its end.
+        for i in 0..self.course[0].len().saturating_sub(1) {
             let [middle, length, pressure] = [0, 1, 2].map(|column| self.course[column][i]);
             let at = |part| crossing(&fine.course[0], &fine.course[2], middle + part * length);
             if let (Some(before), Some(now), Some(after)) = (at(-0.5), at(0.0), at(0.5)) {

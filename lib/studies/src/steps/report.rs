@@ -17,7 +17,7 @@ pub(super) fn write(study: &Study, all: &[Press], absent: &str) -> Result<()> {
     let values = [
         ("head", &*study.head(all.iter().map(|p| p.numbers[6]))),
         ("absent", if absent.is_empty() { "none" } else { absent }),
-        ("steps", &errors(all, &CFL[..3], [1, 3])),
+        ("steps", &errors(all, &CFL, [1, 3])),
         ("bonds", &errors(all, &CFL[..1], [0, 1])),
         ("cells", &cells(all)),
     ];
