@@ -24,6 +24,7 @@
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
 #   make load-control             the implicit clamp at its pressure limit, 400 presses
+#   make steps                    errors by length of step and size of cell: bonds of seven woods, three drives
 #   make experiments              squeeze flows that others measured, predicted blind; published permeabilities and lumens
 #   make leave-out                what a scene pays for features it does not use
 #   make crash                    runs killed at every write, continued: all end the same

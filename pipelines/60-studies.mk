@@ -5,6 +5,8 @@
 # options       what the options of the explicit scheme that are not the paper's change
 # load-control  the implicit scheme's clamp at a pressure limit: 5 pressures x 5 viscosities x 8 scenes at two
 #               Courant numbers; fails where a step breaks its Courant number or the closing is out of order
+# steps         what the length of a step and the size of a cell change in presses by the implicit scheme; fails where a run does.
+#               The piece of acer needs ../shared
 # crash         runs killed, or denied the disk, at every call by which they change their folder, and two runs
 #               into one: all end as the run in one piece, or are refused. Needs `strace` and `prlimit`
 # leave-out     what a scene pays for what it does not use: instructions of the stages of both schemes; fails where a stage
@@ -16,9 +18,9 @@ STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)
 #               beside an older build: make bench BASE=/path/to/its/target/release
 # experiments   squeeze flows that others measured predicted blind, permeabilities beside published ones, cells of species beside
 #               measured ones, presses of a measured section of spruce; what needs ../shared is left out without it
-.PHONY: verify stability options load-control leave-out crash bench experiments
+.PHONY: verify stability options load-control steps leave-out crash bench experiments
 export BASE
-verify stability options load-control leave-out crash bench experiments: $(BINARIES)
+verify stability options load-control steps leave-out crash bench experiments: $(BINARIES)
 	$(STUDY)
 
 # Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`
@@ -31,7 +33,7 @@ tradeoff: $(BINARIES)
 # Every page that a study writes, of one build, one after the other.
 .PHONY: pages
 pages:
-	+@for page in verify stability options load-control leave-out crash experiments bench tradeoff; do $(MAKE) $$page; done
+	+@for page in verify stability options load-control steps leave-out crash experiments bench tradeoff; do $(MAKE) $$page; done
 
 # Speed of the kernels alone and of the linear solver.
 .PHONY: kernels

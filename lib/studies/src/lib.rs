@@ -22,6 +22,7 @@ pub mod options;
 pub mod outputs;
 mod press;
 pub mod stability;
+pub mod steps;
 pub mod study;
 pub mod tradeoff;
 pub mod verification;

@@ -30,13 +30,20 @@ pub(crate) fn tool(name: &str) -> Command {
 
 /// Writes the bond file of synthetic wood with voxels of 1.45 um and PF: so many voxels along x, y and z, and the thickness of the adhesive.
 pub(crate) fn synthetic_bond(path: &Path, voxels: &str, slab: &str) -> Result<()> {
+    let wood = format!(
+        "synth-xct -q --adhesive pf --voxel 1.45um --seed 1 --size {voxels} --slab '{slab}' -o - | xct2particles -q - -o -"
+    );
+    bond(path, &wood, "")
+}
+
+/// Writes the bond file of the particle file that a pipe of tools prints, by options of `build-bondline`.
+pub(crate) fn bond(path: &Path, wood: &str, options: &str) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let bin = bin_folder();
-    let (bin, bond) = (bin.display(), path.display());
+    let (bin, bond) = (bin_folder(), path.display());
     let pipe = format!(
-        "set -o pipefail; \"{bin}/synth-xct\" -q --adhesive pf --voxel '1.45 um' --seed 1 --size {voxels} --slab '{slab}' -o - \
-         | \"{bin}/xct2particles\" -q - -o - | \"{bin}/build-bondline\" -q - -o '{bond}'"
+        "set -o pipefail; PATH=\"{}:$PATH\"; {wood} | build-bondline -q - {options} -o '{bond}'",
+        bin.display()
     );
     printed(Command::new("bash").args(["-c", &pipe]))?;
     Ok(())

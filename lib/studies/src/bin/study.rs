@@ -1,4 +1,4 @@
-//! `make verify tradeoff stability options load-control leave-out crash bench experiments`: one study, named as its make target.
+//! `make verify tradeoff stability options load-control steps leave-out crash bench experiments`: one study, named as its make target.
 
 #![allow(clippy::print_stderr, reason = "prints for developers")]
 
@@ -7,7 +7,8 @@ use std::process::ExitCode;
 
 use studies::study::Study;
 use studies::{
-    bench, crash, experiments, leave_out, load_control, options, stability, tradeoff, verification,
+    bench, crash, experiments, leave_out, load_control, options, stability, steps, tradeoff,
+    verification,
 };
 
 fn main() -> ExitCode {
@@ -18,13 +19,14 @@ fn main() -> ExitCode {
         Some("stability") => stability::run,
         Some("options") => options::run,
         Some("load-control") => load_control::run,
+        Some("steps") => steps::run,
         Some("leave-out") => leave_out::run,
         Some("crash") => crash::run,
         Some("bench") => bench::run,
         Some("experiments") => experiments::run,
         _ => {
             eprintln!(
-                "usage: study verify|tradeoff|stability|options|load-control|leave-out|crash|bench|experiments RESULT_FOLDER [PART_OF_NAME...]"
+                "usage: study verify|tradeoff|stability|options|load-control|steps|leave-out|crash|bench|experiments RESULT_FOLDER [PART_OF_NAME...]"
             );
             return ExitCode::from(2);
         }
