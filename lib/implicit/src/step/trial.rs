@@ -208,7 +208,7 @@ impl Implicit {
         let used = match self.setup.is_non_newtonian() && start.dissipation > 0.0 {
             true => {
                 let rates = self.field((&middle.mesh, &middle.couplings), start).rates(liquid.shear_rate, slip);
-                Viscosities::of(&rates, liquid, factor, slip)
+                Viscosities::of(&rates, &liquid.viscosity, factor, slip)
             }
             false => Viscosities::constant(&middle.mesh, middle.viscosity),
         };
@@ -234,7 +234,7 @@ impl Implicit {
         let thick = self.thickened(trial);
         let viscosities = thick.as_ref().unwrap_or(&trial.viscosity.used);
         let power = rates.power(viscosities, &middle.mesh, &middle.fractions);
-        let agrees = trial.viscosity.update(&self.setup.liquid, rates, power);
+        let agrees = trial.viscosity.update(&self.setup.liquid.viscosity, rates, &power);
         self.clock.add(Stage::Viscosity, begun);
         agrees
     }

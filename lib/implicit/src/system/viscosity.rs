@@ -1,6 +1,6 @@
 //! Shear rates of a flow, and the viscosities that follow from them (docs/methods.md section 3.8).
 
-use physics::{Liquid, ShearRate, Viscosity};
+use physics::{ShearRate, Viscosity};
 use rayon::prelude::*;
 
 use super::couplings::WallCouplings;
@@ -33,10 +33,9 @@ impl Viscosities {
         own.unwrap_or_else(|| ends.map(|pore| self.pores[pore]))
     }
 
-    /// Viscosities at the `rates` of a flow: `factor` times the law of the liquid (Pa s). At walls both the rate and the
+    /// Viscosities at the `rates` of a flow: `factor` times the `law` (Pa s). At walls both the rate and the
     /// viscosity are multiplied by the thinning factor; `slip` is the influence length, cells.
-    pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
-        let law = &liquid.viscosity;
+    pub(crate) fn of(rates: &Rates, law: &Viscosity, factor: f64, slip: f64) -> Self {
         let at = |rate: f64| factor * law.at(rate);
         let wall = |wall: &WallShear| {
             let share = wall.thinning_factor(law, slip);
@@ -104,6 +103,12 @@ pub(crate) struct Rates {
 }
 
 impl Rates {
+    /// The rates of pores, edges and walls.
+    pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let walls = self.walls.iter_mut().map(|wall| &mut wall.rate);
+        self.pores.iter_mut().chain(&mut self.edges).chain(walls)
+    }
+
     /// Viscous dissipation in each pore with these viscosities.
     pub(crate) fn power(
         &self,
