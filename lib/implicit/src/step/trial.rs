@@ -233,7 +233,8 @@ impl Implicit {
         let rates = field.rates(self.setup.liquid.shear_rate, trial.viscosity.slip);
         let thick = self.thickened(trial);
         let viscosities = thick.as_ref().unwrap_or(&trial.viscosity.used);
-        let power = rates.power(viscosities, &middle.mesh, &middle.fractions);
+        let slip = trial.viscosity.slip;
+        let power = rates.power(viscosities, &middle.mesh, &middle.fractions, slip);
         let agrees = trial.viscosity.update(&self.setup.liquid.viscosity, rates, &power);
         self.clock.add(Stage::Viscosity, begun);
         agrees

@@ -36,7 +36,7 @@ pub(crate) struct ViscosityIteration {
 struct Pass {
     /// ln(rate) of pores, edges and walls.
     ln_rates: Vec<f32>,
-    /// ln of the law's viscosity at the rates of each pore over that used.
+    /// ln of the law's viscosity at the rates of each pore and wall over that used.
     residuals: Vec<f32>,
     /// Root mean square of the residuals, weighted by dissipation.
     residual: f64,
@@ -53,12 +53,14 @@ impl ViscosityIteration {
         }
     }
 
-    /// Updates the viscosities by the `rates` and the dissipation (`power`) of each pore of the flow that was solved with
+    /// Updates the viscosities by the `rates` and the dissipation (`power`) of pores and walls of the flow that was solved with
     /// them. Returns whether the iteration has converged.
     pub(crate) fn update(&mut self, law: &Viscosity, mut rates: Rates, power: &[f64]) -> bool {
         let by_law = Viscosities::of(&rates, law, self.factor, self.slip);
-        let residuals = by_law.pores.iter().zip(&self.used.pores);
-        let residuals: Vec<f32> = residuals
+        let walls = by_law.walls.iter().zip(&self.used.walls);
+        let pores = by_law.pores.iter().zip(&self.used.pores);
+        let pairs = pores.chain(walls.map(|(by_law, used)| (&by_law[0], &used[0])));
+        let residuals: Vec<f32> = pairs
             .map(|(by_law, used)| (by_law / used).ln() as f32)
             .collect();
         let all: f64 = power.iter().sum();
