@@ -225,7 +225,7 @@ impl Implicit {
         let used = match self.setup.is_non_newtonian() && start.dissipation > 0.0 {
             true => {
                 let rates = self.field((&middle.mesh, &middle.couplings), start).rates(liquid.shear_rate, slip);
-                Viscosities::of(&rates, liquid, factor, slip)
+                Viscosities::of(&rates, &liquid.viscosity, factor, slip)
             }
             false => Viscosities::constant(&middle.mesh, middle.viscosity),
         };
@@ -250,8 +250,9 @@ impl Implicit {
         let rates = field.rates(self.setup.liquid.shear_rate, trial.viscosity.slip);
         let thick = self.thickened(trial);
         let viscosities = thick.as_ref().unwrap_or(&trial.viscosity.used);
-        let power = rates.power(viscosities, &middle.mesh, &middle.fractions);
-        let agrees = trial.viscosity.update(&self.setup.liquid, rates, power);
+        let slip = trial.viscosity.slip;
+        let power = rates.power(viscosities, &middle.mesh, &middle.fractions, slip);
+        let agrees = trial.viscosity.update(&self.setup.liquid.viscosity, rates, &power);
         self.clock.add(Stage::Viscosity, begun);
         agrees
     }

@@ -1,12 +1,12 @@
 //! Shear rates of a flow, and the viscosities that follow from them (docs/methods.md section 3.8).
 
-use physics::{Liquid, ShearRate, Viscosity};
+use physics::{ShearRate, Viscosity};
 use rayon::prelude::*;
 
 use super::couplings::WallCouplings;
 use super::edges::Edges;
 use super::stretching::stretching;
-use super::thinning::{steepness, thinning_distance};
+use super::thinning::{Channel, FlowCurve};
 use crate::geometry::{Mesh, Neighbour, others};
 
 /// Viscosities over their unit: of each pore, at the walls of the two halves of each face, and at each edge. The latter two are
@@ -33,14 +33,17 @@ impl Viscosities {
         own.unwrap_or_else(|| ends.map(|pore| self.pores[pore]))
     }
 
-    /// Viscosities at the `rates` of a flow: `factor` times the law of the liquid (Pa s). At walls both the rate and the
-    /// viscosity are multiplied by the thinning factor; `slip` is the influence length, cells.
-    pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
-        let law = &liquid.viscosity;
+    /// Viscosities at the `rates` of a flow: `factor` times the `law` (Pa s). That at walls
+    /// is the stress over the rate of a Newtonian liquid; `slip` is the influence length, cells.
+    pub(crate) fn of(rates: &Rates, law: &Viscosity, factor: f64, slip: f64) -> Self {
         let at = |rate: f64| factor * law.at(rate);
-        let wall = |wall: &WallShear| {
-            let share = wall.thinning_factor(law, slip);
-            [share * at(share * wall.rate); 2]
+        let curve = FlowCurve::new(law);
+        let wall = |wall: &WallShear| match wall.rate > 0.0 {
+            true => {
+                let rate = curve.wall_rate(&wall.channel, slip, wall.rate);
+                [rate / wall.rate * at(rate); 2]
+            }
+            false => [at(0.0); 2],
         };
         Self {
             pores: rates.pores.par_iter().map(|&rate| at(rate)).collect(),
@@ -72,27 +75,13 @@ impl Viscosities {
     }
 }
 
-/// Shear at the walls of a face: the rate of simple shear, 1/s, the effective distance d_w, the width H of the channel, and the
-/// distance of the first edge from the wall, cells.
+/// Shear at the walls of a face: the rate of simple shear that a Newtonian liquid has, 1/s, on an area, and the channel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WallShear {
     pub(super) rate: f64,
-    distance: f64,
-    width: f64,
-    first: f64,
-}
-
-impl WallShear {
-    /// Ratio of the wall distances of a Newtonian liquid and of one with this `law`, a factor on both the rate and the
-    /// viscosity.
-    pub(super) fn thinning_factor(&self, law: &Viscosity, slip: f64) -> f64 {
-        if self.rate <= 0.0 {
-            return 1.0;
-        }
-        let power = steepness(law, self.rate);
-        let distance = thinning_distance(self.distance, self.width, self.first, power);
-        (self.distance + slip) / (distance + slip)
-    }
+    /// Wall area, square cells.
+    area: f64,
+    channel: Channel,
 }
 
 /// Shear rates, 1/s: of each pore and edge by the scene's convention, and at the walls of each face.
@@ -104,18 +93,34 @@ pub(crate) struct Rates {
 }
 
 impl Rates {
-    /// Viscous dissipation in each pore with these viscosities.
+    /// The rates of pores, edges and walls.
+    pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let walls = self.walls.iter_mut().map(|wall| &mut wall.rate);
+        self.pores.iter_mut().chain(&mut self.edges).chain(walls)
+    }
+
+    /// Viscous dissipation in each pore with these viscosities, and at the walls of each face, which may differ from its pores.
+    /// `slip` is the influence length, cells.
     pub(crate) fn power(
         &self,
         viscosities: &Viscosities,
         mesh: &Mesh,
         fractions: &[f64],
+        slip: f64,
     ) -> Vec<f64> {
-        let power = |pore: usize| {
+        let in_pore = |pore: usize| {
             let stress = viscosities.pores[pore] * self.pores[pore];
             stress * self.pores[pore] * mesh.volume(pore) * fractions[pore]
         };
-        (0..mesh.pores.len()).into_par_iter().map(power).collect()
+        let at_walls = |face: usize| {
+            let wall = &self.walls[face];
+            let [low, high] = mesh.faces[face].pores().map(|pore| fractions[pore]);
+            let volume = 0.5 * (low + high) * wall.area * (wall.channel.distance + slip);
+            viscosities.walls[face][0] * wall.rate.powi(2) * volume
+        };
+        let pores = (0..mesh.pores.len()).into_par_iter().map(in_pore);
+        let faces = (0..viscosities.walls.len()).into_par_iter().map(at_walls);
+        pores.chain(faces).collect()
     }
 }
 
@@ -228,18 +233,32 @@ impl FlowField<'_> {
             .sum();
         if coupling.area == 0.0 {
             // Only past a corner: the wall is a cell away.
-            return WallShear {
-                rate: (self.velocity[face] - wall / friction).abs(),
+            let channel = Channel {
                 distance: 1.0,
                 width: f64::INFINITY,
-                first: 1.0,
+                ..Channel::default()
+            };
+            let rate = (self.velocity[face] - wall / friction).abs();
+            let area = friction;
+            return WallShear {
+                rate,
+                area,
+                channel,
             };
         }
+        let mesh = self.mesh;
         WallShear {
             rate: (friction * self.velocity[face] - wall).abs() / coupling.area,
-            distance: (coupling.area / friction - slip).max(0.0),
-            width: coupling.inverse_width_squared.powf(-0.5),
-            first: coupling.height / coupling.area,
+            area: coupling.area,
+            channel: Channel {
+                distance: (coupling.area / friction - slip).max(0.0),
+                width: coupling.inverse_width_squared.powf(-0.5),
+                first: coupling.height / coupling.area,
+                spacing: match mesh.faces[face].axis {
+                    1 => 1.0,
+                    _ => mesh.height(mesh.faces[face].low as usize),
+                },
+            },
         }
     }
 }
