@@ -291,9 +291,8 @@ pub fn measured(file: &Labelled) -> Result<Measured, Error> {
     let (_, inputs) = figures::record(&file.path).unwrap_or_default();
     Ok(Measured {
         label: file.label.clone(),
-        entered: [("entered_share", 100.0, 1), ("mean_depth_um", 1.0, 2)].map(
-            |(column, unit, decimals)| number(&table.in_total(column).into(), unit, decimals),
-        ),
+        entered: [("entered_share", 100.0, 1), ("mean_depth_um", 1.0, 2)]
+            .map(|(column, unit, decimals)| number(&table.in_total(column).into(), unit, decimals)),
         wp: [bottom, top, total],
         content: inputs.into_iter().map(|(_, hash)| hash).collect(),
     })

@@ -150,7 +150,6 @@ impl Mesh {
 }
 
 impl Topology {
-
     /// Fills `pore_faces` and `pore_face_start`.
     fn list_pore_faces(&mut self) {
         self.pore_faces.reserve_exact(2 * self.faces.len());

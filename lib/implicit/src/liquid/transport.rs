@@ -84,7 +84,9 @@ fn advect_substep(
         .collect();
     let shares: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] {
-            true => share_beyond_the_front(mesh, full, &flux, pore, capacities[pore] - volumes[pore]),
+            true => {
+                share_beyond_the_front(mesh, full, &flux, pore, capacities[pore] - volumes[pore])
+            }
             false if volumes[pore] == 0.0 => 1.0,
             false => (volumes[pore] / outflow(mesh, &flux, pore)).min(1.0),
         })
@@ -92,7 +94,11 @@ fn advect_substep(
     flux.par_iter_mut().enumerate().for_each(|(face, flux)| {
         let f = mesh.faces[face];
         let ends = [f.low as usize, f.high as usize];
-        let [donor, next] = if *flux > 0.0 { ends } else { [ends[1], ends[0]] };
+        let [donor, next] = if *flux > 0.0 {
+            ends
+        } else {
+            [ends[1], ends[0]]
+        };
         if !(full[donor] && full[next]) {
             *flux *= shares[donor];
         }
@@ -116,7 +122,13 @@ fn advect_substep(
 
 /// Share of its fluxes to pores that are not full which a full pore passes on: all that it has beyond what it `lacks` of its
 /// capacity. A pore counts as full a little before it is.
-fn share_beyond_the_front(mesh: &Mesh, full: &[bool], flux: &[f64], pore: usize, lacks: f64) -> f64 {
+fn share_beyond_the_front(
+    mesh: &Mesh,
+    full: &[bool],
+    flux: &[f64],
+    pore: usize,
+    lacks: f64,
+) -> f64 {
     let (mut inflow, mut beyond) = (0.0, 0.0);
     for neighbour in mesh.neighbours(pore) {
         let out = neighbour.sign() * flux[neighbour.face];

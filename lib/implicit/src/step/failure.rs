@@ -61,10 +61,8 @@ fn advice(cause: Cause) -> String {
             "inertia, rho h^2/(eta dt), is {ratio:.0e} times the viscous stress in a cell: a higher viscosity, an earlier \
              end if nothing flows any more, or scheme = \"explicit\" is needed"
         ),
-        Cause::Unknown => {
-            "a smaller integrator.cfl makes the linear systems easier, a larger \
+        Cause::Unknown => "a smaller integrator.cfl makes the linear systems easier, a larger \
                            integrator.tolerance relaxes them"
-                .into()
-        }
+            .into(),
     }
 }

@@ -84,7 +84,10 @@ fn large_voids(voids: &[Void], dt: f64) -> impl Iterator<Item = (&Void, f64)> {
     let all: f64 = voids.iter().map(|void| void.inflow.max(0.0)).sum();
     let large = move |void: &&Void| void.inflow > LARGE_VOID * all;
     let filled = move |void: &'_ Void| void.free / (void.inflow * dt);
-    voids.iter().filter(large).map(move |void| (void, filled(void)))
+    voids
+        .iter()
+        .filter(large)
+        .map(move |void| (void, filled(void)))
 }
 
 /// Large voids that end a step of `dt` (s) because they are full within it, and the time of each, s.

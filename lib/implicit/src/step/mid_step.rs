@@ -59,7 +59,9 @@ impl Implicit {
         // The flow of a film goes with a power of its height: the geometric mean has its mean flow.
         let height = match part {
             0.0 => self.height(),
-            _ => (self.height() * end_height).sqrt().max(0.25 * self.height()),
+            _ => (self.height() * end_height)
+                .sqrt()
+                .max(0.25 * self.height()),
         };
         let mesh = self.mesh.at_height(height);
         self.clock.add(Stage::Geometry, begun);
@@ -110,8 +112,16 @@ impl Implicit {
                     inflow -= neighbour.sign() * mesh.area(face) * flow.velocity[face];
                 }
             }
-            let free = if mesh.is_cut(&pores) { f64::INFINITY } else { free };
-            Void { pores, inflow, free }
+            let free = if mesh.is_cut(&pores) {
+                f64::INFINITY
+            } else {
+                free
+            };
+            Void {
+                pores,
+                inflow,
+                free,
+            }
         };
         let voids = mesh.components(|pore| !full[pore]).into_iter();
         voids.map(void).collect()

@@ -148,7 +148,9 @@ impl Implicit {
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         let programme = self.state.drive.programme.as_ref();
         let limit = programme.map_or(limit, |run| run.within(limit, self.state.travel));
-        if self.setup.lattice.moving.is_some() && self.height() == 0.0 && self.state.drive.speed > 0.0
+        if self.setup.lattice.moving.is_some()
+            && self.height() == 0.0
+            && self.state.drive.speed > 0.0
         {
             // A body of given velocity may overlap another by a fiftieth of a cell at the end (docs/verdicts.md), and the step that
             // ends its travel may do so earlier by a hundredth.
@@ -222,7 +224,10 @@ impl Implicit {
     /// Refuses a flow whose pressure anywhere is beyond the range of the liquid's law.
     fn check_pressure(&self, flow: &Flow) -> Result<(), Failure> {
         let most = flow.pressure.iter().fold(0.0_f64, |most, p| most.max(*p));
-        let (most, bulk_modulus) = (most * self.setup.units.viscosity, self.setup.liquid.tait.bulk_modulus);
+        let (most, bulk_modulus) = (
+            most * self.setup.units.viscosity,
+            self.setup.liquid.tait.bulk_modulus,
+        );
         match most <= MOST_COMPRESSION * bulk_modulus {
             true => Ok(()),
             false => Err(self.failure(&format!(

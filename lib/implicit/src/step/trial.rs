@@ -140,11 +140,7 @@ impl Implicit {
 
     /// Solves once with all parts of a trial as they are, from the flow `start`. Returns the flow, the forces on the bodies,
     /// and whether compression obeys its law.
-    fn solve_once(
-        &self,
-        trial: &Trial,
-        mut start: Flow,
-    ) -> Result<(Flow, Vec<f64>, bool), String> {
+    fn solve_once(&self, trial: &Trial, mut start: Flow) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, state, clock) = (&self.setup, &self.state, &self.clock);
         let Trial {
             middle, unknowns, ..
@@ -224,7 +220,9 @@ impl Implicit {
         let factor = middle.viscosity / self.setup.units.viscosity;
         let used = match self.setup.is_non_newtonian() && start.dissipation > 0.0 {
             true => {
-                let rates = self.field((&middle.mesh, &middle.couplings), start).rates(liquid.shear_rate, slip);
+                let rates = self
+                    .field((&middle.mesh, &middle.couplings), start)
+                    .rates(liquid.shear_rate, slip);
                 Viscosities::of(&rates, &liquid.viscosity, factor, slip)
             }
             false => Viscosities::constant(&middle.mesh, middle.viscosity),
@@ -252,7 +250,9 @@ impl Implicit {
         let viscosities = thick.as_ref().unwrap_or(&trial.viscosity.used);
         let slip = trial.viscosity.slip;
         let power = rates.power(viscosities, &middle.mesh, &middle.fractions, slip);
-        let agrees = trial.viscosity.update(&self.setup.liquid.viscosity, rates, &power);
+        let agrees = trial
+            .viscosity
+            .update(&self.setup.liquid.viscosity, rates, &power);
         self.clock.add(Stage::Viscosity, begun);
         agrees
     }
@@ -289,10 +289,14 @@ impl Implicit {
         let mut full = middle.full.clone();
         if found > assumed {
             let filled = middle.fractions.iter().map(|&fraction| fraction == 1.0);
-            full.iter_mut().zip(filled).for_each(|(full, filled)| *full |= filled);
+            full.iter_mut()
+                .zip(filled)
+                .for_each(|(full, filled)| *full |= filled);
         }
         for void in &voids {
-            void.pores.iter().for_each(|&pore| full[pore as usize] = true);
+            void.pores
+                .iter()
+                .for_each(|&pore| full[pore as usize] = true);
         }
         trial.middle = self.middle((middle.dt, middle.part), flow.speed, flow, full)?;
         let Trial { middle, torn, .. } = &*trial;

@@ -70,7 +70,8 @@ fn course(depth: usize, cfl: f64) -> Vec<Step> {
 fn ratios(coarse: &[Step], fine: &[Step]) -> Vec<f64> {
     let ratio = |step: &Step| {
         let [start, end] = step.travel;
-        let near = |other: &&Step| (other.travel[1] - end).abs() <= 0.1 * (end - start) + 0.05 * VOXEL;
+        let near =
+            |other: &&Step| (other.travel[1] - end).abs() <= 0.1 * (end - start) + 0.05 * VOXEL;
         let ratios = (fine.iter().filter(near)).map(|other| step.pressure / other.pressure);
         let nearest = |a: f64, b: f64| if a.ln().abs() < b.ln().abs() { a } else { b };
         ratios.reduce(nearest).unwrap()

@@ -6,7 +6,9 @@ use serde::Deserialize;
 use units::{Acceleration, Length, Pressure, Quantity, Speed, Time};
 
 use super::adhesive::Adhesive;
-use super::value::{BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice, some_in_voxels};
+use super::value::{
+    BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice, some_in_voxels,
+};
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
