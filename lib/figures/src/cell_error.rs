@@ -9,8 +9,8 @@ use crate::table2::{Row, Table2, number};
 /// The first of the quantities that Table 2 does not have.
 const BESIDE_TABLE2: usize = 3;
 /// Note on pressures at the end of a run.
-pub const AT_THE_END: &str = "in the middle of the last step; larger cells take longer steps, so the travel differs a little between \
-    cell sizes; runs that left different gaps are not compared";
+pub const AT_THE_END: &str =
+    "at the end of the last step; runs that left different gaps are not compared";
 
 impl Table2 {
     /// Whether a finer run says something of the error of a run.

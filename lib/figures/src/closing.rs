@@ -19,8 +19,9 @@ use crate::{Error, Labelled};
 #[derive(Clone, Debug)]
 struct Course {
     label: String,
-    /// s; the middles of the steps, of which pressure and speed are
+    /// s; the ends of the steps, of which the pressure is, and their middles, of which the speed is
     time: Vec<f64>,
+    middle: Vec<f64>,
     /// Pa; on the upper body, which the clamp drives
     pressure: Vec<f64>,
     /// What a finer run says of the pressure, where one was given.
@@ -206,8 +207,8 @@ fn draw(drawing: &mut Drawing, runs: &[Course], axes: &Axes, [upper, lower]: [&F
         }
     }
     for (i, run) in runs.iter().enumerate() {
-        let line = |frame: &Frame, y: &Axis, values: &[f64], scale: f64| {
-            let pairs = run.time.iter().zip(values);
+        let line = |frame: &Frame, y: &Axis, [time, values]: [&[f64]; 2], scale: f64| {
+            let pairs = time.iter().zip(values);
             let place = |(t, v): (&f64, &f64)| [t / axes.unit, v * scale];
             thinned(pairs.map(|pair| frame.place(&axes.above, y, place(pair))))
         };
@@ -222,8 +223,14 @@ fn draw(drawing: &mut Drawing, runs: &[Course], axes: &Axes, [upper, lower]: [&F
             stroke.colour,
             named,
         );
-        stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
-        stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
+        stroke.draw(
+            drawing,
+            &line(upper, &axes.pressure, [&run.time, &run.pressure], 1e-6),
+        );
+        stroke.draw(
+            drawing,
+            &line(lower, &axes.speed, [&run.middle, &run.speed], 1.0),
+        );
     }
 }
 
@@ -249,15 +256,17 @@ fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
 impl Course {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
-        let mut time = table.numbers("time_s")?;
+        let time = table.numbers("time_s")?;
+        let mut middle = time.clone();
         // The log of a press has no steps.
         if table.has("dt_s") {
             let steps = table.numbers("dt_s")?;
-            (time.iter_mut().zip(steps)).for_each(|(t, dt)| *t -= 0.5 * dt);
+            (middle.iter_mut().zip(steps)).for_each(|(t, dt)| *t -= 0.5 * dt);
         }
         Ok(Self {
             label: source.label.clone(),
             time,
+            middle,
             pressure: table.numbers("pressure_top_Pa")?,
             band: Vec::new(),
             speed: table.numbers("closing_speed_m_s")?,
@@ -273,14 +282,9 @@ fn shade(run: usize, converged: bool) -> RGBAColor {
     }
 }
 
-/// How far the clamp of a run had gone in the middles of its steps, m.
+/// How far the clamp of a run had gone at the ends of its steps, m.
 fn travel(source: &Labelled) -> Result<Vec<f64>, Error> {
-    let table = Table::read(&source.path)?;
-    let (steps, speed) = (table.numbers("dt_s")?, table.numbers("closing_speed_m_s")?);
-    let steps = steps.iter().zip(speed);
-    let ends = table.numbers("displacement_m")?.into_iter();
-    let middles = ends.zip(steps).map(|(s, (dt, v))| s - 0.5 * dt * v);
-    Ok(middles.collect())
+    Table::read(&source.path)?.numbers("displacement_m")
 }
 
 /// The largest unit that shows a time of `last` seconds as a number above one.

@@ -120,14 +120,6 @@ impl Run {
         Ok(columns.map(|column| column[column.len() - 1]))
     }
 
-    /// Times at which the rows' viscous forces hold, s: the middles of their steps, where the implicit
-    /// scheme solves its system (docs/methods.md section 3.1).
-    pub(crate) fn middles(&self) -> Result<Vec<f64>> {
-        let [ends, steps] = self.columns(["time_s", "dt_s"])?;
-        let middle = |(end, step): (&f64, &f64)| end - 0.5 * step;
-        Ok(ends.iter().zip(&steps).map(middle).collect())
-    }
-
     /// The last state.
     pub(crate) fn last(&self) -> Result<ParticleFile> {
         Ok(ParticleFile::open(self.folder.join("final.mpts"))?)

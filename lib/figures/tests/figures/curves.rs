@@ -75,17 +75,19 @@ fn curves_are_drawn_at_the_height_of_their_values() {
     assert!((ratio - 0.5).abs() < 0.02);
 }
 
-/// Pressure and speed are those of the middle of a step, whatever its length.
+/// Pressure is that of the end of a step, whatever its length, speed that of its middle.
 #[test]
-fn rows_stand_in_the_middle_of_their_steps() {
+fn pressure_stands_at_the_end_of_a_step_and_speed_in_its_middle() {
     let folder = Folder::new();
     let drawn = |step: f64| {
-        let end = |middle: i32| f64::from(middle) * 1e-6 + 0.5 * step;
-        let rows = (1..6).map(|middle| format!("{},{step},1,{middle}e5", end(middle)));
+        let rows = (1..6).map(|end| format!("{end}e-6,{step},{end},{end}e5"));
         let header = "time_s,dt_s,closing_speed_m_s,pressure_top_Pa";
-        pixels(&closed(&[folder.labelled("a", csv(header, rows))]))
+        pixels(&closed(&[folder.labelled("a", csv(header, rows))])).1
     };
-    assert!(drawn(0.0) == drawn(1e-6), "a step is drawn at its end");
+    let [still, moved] = [0.0, 1e-6].map(drawn);
+    let half = still.len() / 2;
+    assert!(still[..half] == moved[..half], "pressure");
+    assert!(still[half..] != moved[half..], "speed");
 }
 
 /// Stages of milliseconds stand beside a hold of minutes.

@@ -57,7 +57,7 @@ impl Press {
             let [time, gap, pressure] = ["time_s", "gap_m", "final_pressure_pa"].map(number);
             press.numbers = [time, gap, pressure, bottom, top, total, run.cpu_s()];
             let [lengths, pressures] = run.columns(["dt_s", "pressure_top_Pa"])?;
-            press.course = [run.middles()?, lengths, pressures];
+            press.course = [run.history("time_s")?, lengths, pressures];
         }
         Ok(press)
     }
@@ -67,12 +67,11 @@ impl Press {
     fn errors(&self, fine: &Self) -> [f64; 8] {
         let of = |i: usize| self.numbers[i] / fine.numbers[i] - 1.0;
         let mut kinds = vec![Vec::new(); 3];
-        // The pressure of the last step is that of its end.
-        for i in 0..self.course[0].len().saturating_sub(1) {
-            let [middle, length, pressure] = [0, 1, 2].map(|column| self.course[column][i]);
-            let at = |part| crossing(&fine.course[0], &fine.course[2], middle + part * length);
-            if let (Some(before), Some(now), Some(after)) = (at(-0.5), at(0.0), at(0.5)) {
-                let later = if after > FILLING * before { 1 } else { 2 };
+        for i in 0..self.course[0].len() {
+            let [end, length, pressure] = [0, 1, 2].map(|column| self.course[column][i]);
+            let at = |time| crossing(&fine.course[0], &fine.course[2], time);
+            if let (Some(before), Some(now)) = (at(end - length), at(end)) {
+                let later = if now > FILLING * before { 1 } else { 2 };
                 kinds[later * usize::from(i > 0)].push(pressure / now - 1.0);
             }
         }

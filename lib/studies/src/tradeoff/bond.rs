@@ -95,15 +95,14 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
     })
 }
 
-/// Mean of both reactions over the second half of the travel: the work of the steps, whose pressures are
-/// those of their middles, over the way.
+/// Mean of both reactions over the second half of the travel: the work over the way.
 fn late_pressure(run: &Run) -> Result<f64> {
     let [travel, bottom, top] =
         run.columns(["displacement_m", "pressure_bottom_Pa", "pressure_top_Pa"])?;
     let [end] = run.ends(["displacement_m"])?;
     let work = (1..travel.len()).map(|i| {
         let way = travel[i] - travel[i - 1].max(0.5 * end);
-        0.5 * (bottom[i] + top[i]) * way.max(0.0)
+        0.25 * (bottom[i - 1] + bottom[i] + top[i - 1] + top[i]) * way.max(0.0)
     });
     Ok(work.sum::<f64>() / (0.5 * end))
 }

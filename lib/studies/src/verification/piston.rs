@@ -132,7 +132,7 @@ fn pressures(
         .map(|p| p * (right / LUMEN).powi(2))
         .collect();
     // What the liquid gives way by itself does not flow into the lumen.
-    let filled: Vec<f64> = (run.middles()?.iter().zip(&pressure))
+    let filled: Vec<f64> = (run.history("time_s")?.iter().zip(&pressure))
         .map(|(t, p)| 4.0 / area * (speed * t / LUMEN - DEPTH * p / STIFF))
         .collect();
     let at = |length: f64| {

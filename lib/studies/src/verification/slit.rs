@@ -93,7 +93,7 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
 /// Filled length in slit widths and force on the piston over that of one filled width, row by
 /// row of the history of a run with `n` cells.
 pub(super) fn curve(run: &Run, n: u32) -> Result<Vec<[f64; 2]>> {
-    let time = run.middles()?;
+    let time = run.history("time_s")?;
     let pressure = run.history("pressure_top_Pa")?;
     // History pressures refer to the whole cross-section of the domain.
     let section = (4.0 * f64::from(n) + 6.0) / (4.0 * f64::from(n));
