@@ -75,7 +75,7 @@ impl Viscosities {
     }
 }
 
-/// Shear at the walls of a face: the rate of simple shear that a Newtonian liquid has, 1/s, on an area, and the channel.
+/// Shear at the walls of a face: the rate that a Newtonian liquid has, 1/s, the area, and the channel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WallShear {
     pub(super) rate: f64,
@@ -84,7 +84,7 @@ pub(crate) struct WallShear {
     channel: Channel,
 }
 
-/// Shear rates, 1/s: of each pore and edge by the scene's convention, and at the walls of each face.
+/// Shear rates by the scene's convention, 1/s: of each pore and edge, and at the walls of each face.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {
     pub(crate) pores: Vec<f64>,
@@ -147,13 +147,18 @@ impl FlowField<'_> {
         let (pores, parts) = self.pore_rates(convention);
         let rate = |square: f64| rate_of_square(square, convention);
         let edges = self.edges.rates(self.mesh, self.velocity, &parts);
+        let faces = 0..self.mesh.faces.len();
+        let own: Vec<WallShear> = (faces.clone().into_par_iter())
+            .map(|face| self.wall_shear(face, slip))
+            .collect();
+        let wall = |face: usize| WallShear {
+            rate: rate(self.wall_square(face, &own)),
+            ..own[face]
+        };
         Rates {
             pores,
             edges: edges.into_iter().map(rate).collect(),
-            walls: (0..self.mesh.faces.len())
-                .into_par_iter()
-                .map(|face| self.wall_rate(face, slip))
-                .collect(),
+            walls: faces.into_par_iter().map(wall).collect(),
         }
     }
 
@@ -221,8 +226,34 @@ impl FlowField<'_> {
         (parts.map(|part| part / volume), walls / volume)
     }
 
-    /// Shear at the walls of a face; `slip` is the influence length, cells.
-    fn wall_rate(&self, face: usize, slip: f64) -> WallShear {
+    /// Square of the rate of simple shear at the walls of a face: its own, and the mean of those of other axes around it.
+    fn wall_square(&self, face: usize, own: &[WallShear]) -> f64 {
+        let (mesh, f) = (self.mesh, self.mesh.faces[face]);
+        let mut square = own[face].rate.powi(2);
+        if own[face].area == 0.0 {
+            return square;
+        }
+        for axis in others(usize::from(f.axis)) {
+            let (mut sum, mut area) = (0.0, 0.0);
+            for (pore, up) in f
+                .pores()
+                .into_iter()
+                .flat_map(|pore| [(pore, false), (pore, true)])
+            {
+                for wall in mesh.faces_at(pore, axis, up).map(|face| own[face]) {
+                    sum += wall.area * wall.rate.powi(2);
+                    area += wall.area;
+                }
+            }
+            if area > 0.0 {
+                square += sum / area;
+            }
+        }
+        square
+    }
+
+    /// Shear at the walls of a face by its own velocity; `slip` is the influence length, cells.
+    fn wall_shear(&self, face: usize, slip: f64) -> WallShear {
         let coupling = self.couplings.of(face);
         let friction: f64 = coupling.friction.iter().sum();
         if friction == 0.0 {
