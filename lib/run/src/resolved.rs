@@ -89,7 +89,7 @@ fn derived(key: &str, case: &Case, setup: &Setup) -> Option<Option<String>> {
         "clamp.pid.kd" => gain(Pid::default().kd),
         "clamp.stop" => unstaged.map(|_| word("closed")),
         "clamp.time_limit" => closes.map(|_| si::<Time>(setup.time_limit_s)),
-        "clamp.travel" => clamp.and(setup.travel_m).map(si::<Length>),
+        "clamp.travel" => clamp.and(setup.initial_gap_m).map(si::<Length>),
         "integrator.velocity_update" => of_explicit(VelocityUpdate::default().name()),
         "integrator.cfl" => Some(format!("{:?}", schemes::cfl(case))),
         "integrator.pressure" => of_explicit(PressureFrom::default().name()),

@@ -116,7 +116,6 @@ pub(super) fn geometry(
         bodies,
         bottom: Some(0),
         top: Some(1),
-        gap_m: Some(gap_m),
         travel_m: Some(travel_m),
         normal,
     })

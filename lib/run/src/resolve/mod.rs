@@ -47,10 +47,8 @@ pub struct Setup {
     pub time_limit_s: f64,
     /// Travel of the clamp until its body meets an obstacle, m, and the name of the obstacle.
     pub clamp_clearance: Option<(f64, String)>,
-    /// Gap between the adherends at the start, m; `None` without a clamp.
+    /// Travel of the clamp at which the gap counts as closed, m; `None` without a clamp.
     pub initial_gap_m: Option<f64>,
-    /// Travel of the clamp at which the gap counts as closed, m.
-    pub(crate) travel_m: Option<f64>,
     /// Duration over which snapshots and rows of the history are spread, s.
     pub nominal_duration_s: f64,
     /// Time between rows of the history, s; 0 for a row after every step.
@@ -76,8 +74,6 @@ struct Geometry {
     bodies: Vec<RigidBody>,
     bottom: Option<usize>,
     top: Option<usize>,
-    /// Gap before pressing, and the travel of the clamp at which it is closed, m.
-    gap_m: Option<f64>,
     travel_m: Option<f64>,
     normal: units::Axis,
 }
@@ -149,7 +145,7 @@ fn resolve_geometry(
     liquid::check_walls(&scene.liquid, &scene.bodies)?;
     let liquid = geometry.seeds.amount().map_err(RunFailure::Usage)?;
     plausible::check(&scene, &liquid, time_limit_s)?;
-    let initial_gap_m = scene.clamp.and(geometry.gap_m);
+    let initial_gap_m = scene.clamp.and(geometry.travel_m);
     // Steps of a press programme last from microseconds to hours: each gets a row.
     let history_every_s = match (case.output.history_every, scene.programme.is_empty()) {
         (Some(every), _) => every.si(),
@@ -163,7 +159,6 @@ fn resolve_geometry(
         seeds: geometry.seeds,
         time_limit_s,
         initial_gap_m,
-        travel_m: geometry.travel_m,
         nominal_duration_s: nominal,
         history_every_s,
         normal: geometry.normal,

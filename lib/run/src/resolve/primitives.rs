@@ -54,9 +54,6 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     }
     let moving = bodies.iter().position(|b| b.motion != Motion::Fixed);
     let fixed = bodies.iter().position(|b| b.motion == Motion::Fixed);
-    let travel_m = (case.clamp.as_ref())
-        .and_then(|clamp| clamp.travel)
-        .map(|travel| travel.si());
     let named = |name: &str| bodies.iter().position(|b| b.name == name);
     Ok(Geometry {
         grid,
@@ -64,8 +61,9 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
         bottom: named("bottom").or(fixed),
         top: named("top").or(moving),
         bodies,
-        gap_m: travel_m,
-        travel_m,
+        travel_m: (case.clamp.as_ref())
+            .and_then(|clamp| clamp.travel)
+            .map(|travel| travel.si()),
         normal: units::Axis::Y,
     })
 }
