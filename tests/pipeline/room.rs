@@ -50,7 +50,7 @@ fn a_press_without_room_says_so_before_and_after() {
     assert!(!open.contains("room for"), "{open}");
     let said = bench.ends(0, &press("run", &slow, "").replace("-q ", ""), FULL);
     assert!(said.contains(room), "{said}");
-    assert!((bench.summary("run", "gap_m") - 5.8e-6).abs() < 0.05e-6);
+    assert!((bench.summary("run", "gap_m") - 5.655e-6).abs() < 0.05e-6);
     bench.done("wp-metrics run/final.mpts --pressure -o run/wp.csv");
     let table = bench.done("bond-figures table2 --run pf:implicit=run/wp.csv -o table2.csv");
     bench.done("bond-report --run run -o page.html");

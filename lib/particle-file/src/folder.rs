@@ -67,29 +67,29 @@ pub fn by_time(files: Vec<PathBuf>) -> Result<Vec<(PathBuf, ParticleFile)>, Erro
         Ok((path, file))
     });
     let mut files = opened.collect::<Result<Vec<_>, Error>>()?;
-    let (states, others): (Vec<_>, Vec<_>) =
-        (files.iter()).partition(|(_, file)| file.header().kind == Kind::State);
-    for group in [&states, &others] {
-        let odd = group.iter().find(|file| !same_run(file, group[0]));
-        if let Some((path, _)) = odd {
-            let what = format!(
-                "is of another run than '{}': a series is of one run",
-                group[0].0.display()
-            );
-            return Err(Error::misplaced(path.display().to_string(), what));
-        }
+    let mut states = files
+        .iter()
+        .filter(|(_, file)| file.header().kind == Kind::State);
+    if let Some(first) = states.next()
+        && let Some((path, _)) = states.find(|state| !same_run(state, first))
+    {
+        let what = format!(
+            "is of another run than '{}': a series is of one run",
+            first.0.display()
+        );
+        return Err(Error::misplaced(path.display().to_string(), what));
     }
     files.sort_by(|(_, a), (_, b)| a.header().time_s.total_cmp(&b.header().time_s));
-    files.dedup_by(|(_, a), (_, b)| a.header().time_s == b.header().time_s);
+    let is_state = |file: &ParticleFile| file.header().kind == Kind::State;
+    files.dedup_by(|(_, a), (_, b)| {
+        is_state(a) && is_state(b) && a.header().time_s == b.header().time_s
+    });
     Ok(files)
 }
 
 /// Whether two states are of one run, by its folder or by what they say of it: a run that went on with another version or
-/// Courant number says something else since. Files that are no states are of one run if they are the same.
+/// Courant number says something else since.
 fn same_run((a, one): &(PathBuf, ParticleFile), (b, other): &(PathBuf, ParticleFile)) -> bool {
-    if one.header().kind != Kind::State {
-        return one.content_hash() == other.content_hash();
-    }
     let folder = |path: &Path| {
         let path = fs::canonicalize(path).ok()?;
         let mut above = path.ancestors().skip(1).take(2).map(Path::to_owned);

@@ -22,13 +22,19 @@ pub(crate) fn room(setup: &Setup) -> Option<Room> {
         is_wide.then_some((block, (bits, block.voxel().iter().product())))
     };
     let ((low, bottom), (high, top)) = (adherend(scene.bottom)?, adherend(scene.top)?);
+    let apart_m = high.origin()[1] - travel_m - low.max()[1];
     let ratio = |water: &Water| (1.0 + water.least()) / (1.0 + water.start());
     let stays = scene.liquid.water.as_ref().map_or(1.0, ratio);
     let press = Press {
         adherends: [bottom, top],
         normal: Axis::Y,
         area_m2,
-        apart_m: high.origin()[1] - travel_m - low.max()[1],
+        // Less than a voxel is the film of a closed bond.
+        apart_m: if apart_m.abs() < high.voxel()[1] {
+            0.0
+        } else {
+            apart_m
+        },
         adhesive_m3: stays * setup.liquid.volume_m3,
         periodic: scene.boundary.map(|side| side == Boundary::Periodic),
         open: scene.boundary.map(|side| side == Boundary::Open),

@@ -276,7 +276,10 @@ impl Implicit {
         let end = self.end_height(middle.dt, flow.speed);
         let [assumed, found] = [middle.end_height, end].map(|end| 0.5 * (self.height() + end));
         // Flow goes with the cube of the height, but another solve costs as much as a step.
-        let off = (found - assumed).abs() / (ITERATION_TOLERANCE * assumed);
+        let off = match assumed > 0.0 {
+            true => (found - assumed).abs() / (ITERATION_TOLERANCE * assumed),
+            false => 0.0,
+        };
         let voids = self.overfilled(middle, flow, end);
         if voids.is_empty() && off <= POSITION_TOLERANCE[0] {
             return Ok(true);

@@ -53,10 +53,11 @@ pub(crate) struct Flow {
 }
 
 impl Flow {
-    /// The flow scaled to another closing speed, which it has then in any case.
+    /// The flow scaled to another closing speed, which it has then in any case; by a factor of four at most, as farther off it
+    /// tells nothing.
     pub(crate) fn at_speed(&self, speed: f64) -> Self {
         let mut flow = self.clone();
-        flow.scale_to_speed(speed);
+        flow.scale_to_speed(speed.clamp(-4.0 * self.speed.abs(), 4.0 * self.speed.abs()));
         flow.speed = speed;
         flow
     }

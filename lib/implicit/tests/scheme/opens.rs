@@ -86,7 +86,7 @@ fn meets(beyond: f64) {
     let mut scene = scene(gap, [8, 8], 1e6);
     scene.programme.clear();
     scene.clamp = None;
-    let speed = 1e-5;
+    let speed = 1e-8;
     scene.bodies[1].motion = Motion::Constant([0.0, -speed, 0.0]);
     let end = (gap + beyond) * CELL / speed;
     scene.stop = Stop::Time(end);

@@ -6,9 +6,7 @@ use serde::Deserialize;
 use units::{Acceleration, Length, Pressure, Quantity, Speed, Time};
 
 use super::adhesive::Adhesive;
-use super::value::{
-    BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice, some_in_voxels,
-};
+use super::value::{BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice};
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
@@ -70,10 +68,16 @@ pub(crate) struct ClampTable {
     pub(crate) stop: Option<StopRule>,
     pub(crate) time_limit: Option<Positive<Time>>,
     pub(crate) travel: Option<Positive<Length>>,
-    #[serde(default, deserialize_with = "some_in_voxels")]
-    pub(crate) closed_gap: Option<EdgeLength>,
+    #[serde(default = "closed_gap", deserialize_with = "in_voxels")]
+    pub(crate) closed_gap: EdgeLength,
     #[serde(default)]
     pub(crate) stage: Vec<StageTable>,
+}
+
+/// Gap at which a bond counts as closed. A film of liquid under a finite pressure never closes, and voxels tell the surfaces of
+/// wood no better.
+fn closed_gap() -> EdgeLength {
+    EdgeLength::Edges(0.1)
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]

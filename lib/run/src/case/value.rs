@@ -90,13 +90,6 @@ pub(super) fn in_voxels<'de, R: Deserializer<'de>>(reader: R) -> Result<EdgeLeng
     EdgeLength::parse(&text, &["voxels", "voxel"], "\"2 voxels\"", "voxels,")
 }
 
-/// As [`in_voxels`], for a key that may be absent.
-pub(super) fn some_in_voxels<'de, R: Deserializer<'de>>(
-    reader: R,
-) -> Result<Option<EdgeLength>, R::Error> {
-    in_voxels(reader).map(Some)
-}
-
 /// `stop` of the clamp: `"closed"` or a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum StopRule {

@@ -33,7 +33,7 @@ pub(crate) struct Origin {
 pub(crate) fn format(scheme: SchemeName) -> String {
     let number = match scheme {
         SchemeName::Explicit => 1,
-        SchemeName::Implicit => 2,
+        SchemeName::Implicit => 3,
     };
     format!("{} {number}, run {RUN_FORMAT}", scheme.name())
 }

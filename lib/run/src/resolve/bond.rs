@@ -6,16 +6,12 @@ use units::Axis;
 
 use super::seed::Seeds;
 use super::{Geometry, cells_along};
-use crate::case::{Case, EdgeLength};
+use crate::case::Case;
 use crate::failure::{RunFailure, refused};
 
 /// Memory of the scene per byte of the bond file, without the scheme: the blocks of the bodies and of the liquid (240 MB for
 /// a file of 121 MB with 885 million voxels).
 const MADE_OF_A_BYTE: u64 = 2;
-
-/// Gap at which a bond counts as closed, by default. A film of liquid under a finite pressure never closes, and voxels tell the
-/// surfaces of wood no better.
-const CLOSED_GAP: EdgeLength = EdgeLength::Edges(0.1);
 
 /// Exchanges y and the bond normal of a vector; its own inverse.
 pub(crate) fn swap<T>(mut v: [T; 3], normal: Axis) -> [T; 3] {
@@ -98,9 +94,9 @@ pub(super) fn geometry(
     let travel_m = match clamp.and_then(|clamp| clamp.travel) {
         Some(travel) => travel.si(),
         None => {
-            let closed = clamp.and_then(|clamp| clamp.closed_gap);
-            let closed_m = closed.unwrap_or(CLOSED_GAP).si(adhesive.voxel()[0]);
-            if clamp.is_some() && closed_m >= gap_m {
+            let voxel = adhesive.voxel()[0];
+            let closed_m = clamp.map_or(0.0, |clamp| clamp.closed_gap.si(voxel));
+            if closed_m > 0.0 && closed_m >= gap_m {
                 return refused(format!(
                     "[clamp] closed_gap of {:.4} um is no less than the gap of {:.4} um: nothing would be pressed",
                     1e6 * closed_m,

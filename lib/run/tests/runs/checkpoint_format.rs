@@ -55,8 +55,8 @@ affine F32, projection F64 3";
     assert_eq!(names, format!("{RUN}, {arrays}"));
 
     let (format, names) = layout(&Bench::new(IMPLICIT, "1.45 us", "0.1 us"), &[]);
-    assert_eq!(format, "implicit 2, run 1");
-    let arrays = "scalars F64 19, rows U32 3, region U32 6, volumes F64, velocities F64, pressures F64, displacement F64 6, \
+    assert_eq!(format, "implicit 3, run 1");
+    let arrays = "scalars F64, rows U32 3, region U32 6, volumes F64, velocities F64, pressures F64, displacement F64 6, \
 air F64, air_counts F64 3, water F64, water_in_walls F64, water_account F64 5";
     assert_eq!(names, format!("{RUN}, {arrays}"));
 }

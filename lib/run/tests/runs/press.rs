@@ -73,13 +73,10 @@ fn stages_follow_one_another_in_steps_that_follow_the_flow() {
     let [time, pressure, stage] =
         ["time_s", "pressure_top_Pa", "stage"].map(|name| bench.numbers(name));
     assert_eq!(time.len() as u64, summary.steps, "a row for each step");
-    // The pressure of a step is the set pressure at its middle.
+    // The pressure of a row is the set pressure at its time.
     let ends: Vec<f64> = summary.programme.iter().map(|s| s.end_s).collect();
-    let mut before = 0.0;
     for ((&t, &p), &stage) in time.iter().zip(&pressure).zip(&stage) {
-        let middle = 0.5 * (before + t);
-        before = t;
-        let part = |from: usize, length: f64| ((middle - ends[from]) / length).clamp(0.0, 1.0);
+        let part = |from: usize, length: f64| ((t - ends[from]) / length).clamp(0.0, 1.0);
         let set = match stage as usize {
             2 => 1e3 + 9e3 * part(0, 1e-3),
             3 => 1e4,
