@@ -122,7 +122,7 @@ fn adhesive_in_lumens_has_entered_whatever_the_slab() {
     let bench = Workbench::with_bond();
     for (slab, reference) in [(4, "mid"), (12, "mid"), (12, "plane=20um"), (4, "adherend")] {
         let label = |x: usize, y: usize, _: usize| match y {
-            12..20 if x % 2 == 0 => ADHESIVE,
+            12..20 if x.is_multiple_of(2) => ADHESIVE,
             y if (20..20 + slab).contains(&y) => ADHESIVE,
             y if (20..22 + slab).contains(&y) && x == 1 => ADHESIVE,
             _ => WOOD,
