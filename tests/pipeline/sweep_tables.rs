@@ -166,7 +166,7 @@ fn a_sweep_of_one_row_has_a_figure_and_rows_of_commas_are_none() {
     }
 }
 
-/// What a sweep was made of was replaced by its results; a table of the same name took the place of another's runs.
+/// Inputs of a sweep were replaced by its results; a table of the same name took the place of another's runs.
 #[test]
 fn a_sweep_keeps_its_table_and_is_of_one_table() {
     let bench = bench("particles,clamp.stop\nbond.mpts,0.05 us\n");

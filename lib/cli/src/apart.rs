@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::{Failure, Output};
 use crate::{aside, output, provenance};
 
-/// What only its own tool writes: kinds of folders, what is in each of them, and their files; `*` stands for any characters.
+/// Files that only their own tool writes: kinds of folders, marks in each of them, and their files; `*` stands for any characters.
 const OWNED: [[&str; 3]; 2] = [
     [
         "run",
@@ -128,7 +128,7 @@ fn refuse_owned(output: &Output) -> Result<(), Failure> {
     }
 }
 
-/// What the file at `place` belongs to.
+/// Owner of the file at `place`, in words.
 fn owner(place: &Path) -> Option<String> {
     let recorded = place
         .to_str()

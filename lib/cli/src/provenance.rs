@@ -55,7 +55,7 @@ impl Record {
     }
 }
 
-/// What follows a file's name in that of its record.
+/// Ending of the name of a record, after that of its file.
 pub(crate) const ENDING: &str = ".provenance.json";
 
 /// Where the record of the file at `path` goes.

@@ -10,7 +10,7 @@ pub(crate) const NORMAL: f64 = 17.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Axis {
     pub(crate) title: String,
-    /// What has no place on it, in words; stands after the title.
+    /// Note on values that have no place on it; stands after the title.
     pub(crate) note: String,
     low: f64,
     high: f64,

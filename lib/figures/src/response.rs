@@ -30,7 +30,7 @@ struct Sweep {
 
 /// The column from which on a row holds results.
 const FIRST_RESULT: &str = "status";
-/// What grows with penetration, also of presses that did not close, and what is drawn of a table without it.
+/// Results that grow with penetration, also of presses that did not close, and the one drawn of a table without them.
 const ENTERED: [&str; 2] = ["entered_share", "mean_depth_um"];
 const ELSE: &str = "wp_um";
 /// Results that stand beside the one asked for.
@@ -234,7 +234,7 @@ impl Sweep {
         }
     }
 
-    /// What tells a line through `row` over parameter `i` from the others of its panel: words and the other parameters.
+    /// Label of a line through `row` over parameter `i`, apart from the others of its panel: words and the other parameters.
     fn label(&self, i: usize, row: usize) -> String {
         let others = self.parameters.iter().enumerate().filter(|(k, _)| *k != i);
         let others = others.map(|(_, (name, values))| format!("{} {}", worded(name), values[row]));

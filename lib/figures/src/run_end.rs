@@ -36,7 +36,7 @@ pub struct RunEnd {
     held_share: Option<f64>,
     /// Total WP before that release, um; NaN where the run did not measure it.
     pub(crate) held_wp_um: Option<f64>,
-    /// What a longer press would change, behind a semicolon.
+    /// Effect of a longer press, behind a semicolon.
     outlook: String,
     /// A time limit that would do, s.
     time_limit_s: Option<f64>,

@@ -15,7 +15,7 @@ const SAME: f64 = 1e-3;
 
 /// A measured specimen.
 pub struct Measured {
-    /// What it is called.
+    /// Its name.
     pub(crate) label: String,
     /// Share of its adhesive that entered the wood, %, and the mean depth of that, um.
     pub(crate) entered: [String; 2],

@@ -78,7 +78,6 @@ fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
     }
     let pressure = "pressure at the end (MPa)";
     let [share, depth] = ["adhesive in the wood (%)", "its mean depth (um)"];
-
     let headers = [
         "run", share, depth, "bottom", "top", "total", pressure, "press",
     ];

@@ -1,4 +1,4 @@
-//! What a longer press would change, where the bond did not close.
+//! Effect of a longer press, where the bond did not close.
 
 use bondline::Room;
 use serde::Serialize;
@@ -18,7 +18,7 @@ const STANDS: f64 = 1e-6;
 const SLOWS: f64 = 4.0;
 const MARGIN: f64 = 1.5;
 
-/// What a longer press would change.
+/// Effect of a longer press.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outlook {
     /// A sentence without its full stop.

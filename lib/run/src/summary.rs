@@ -60,7 +60,7 @@ pub struct Summary {
     /// Penetration and bond line, for a bond in three dimensions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penetration: Option<BondMeasures>,
-    /// What a longer press would change, of one that did not close.
+    /// Effect of a longer press, of one that did not close.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outlook: Option<Outlook>,
     /// Time at which the adhesive sets and the run ends, s; absent if it never sets.

@@ -1,11 +1,11 @@
-//! What the noise of grey values does to penetration.
+//! Effect of the noise of grey values on penetration.
 
 use bondline::{PlacedVoxels, Specimen};
 use metrics::{Datum, Reference, State, penetration};
 use units::Axis;
 use voxels::{Crop, Doubt, Error, Grey, Phases, Segmented, Stack, segment};
 
-/// What is measured with thresholds as they are and moved by the noise: the least and the greatest, as a sentence.
+/// Measures with thresholds as they are and moved by the noise: the least and the greatest, as a sentence.
 ///
 /// Each segmentation is `prepared` as the first was.
 pub(crate) fn moved(

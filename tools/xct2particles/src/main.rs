@@ -226,14 +226,14 @@ fn read_pages(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<Segmented, 
     shown("reading pages", crop, read).map_err(failure)
 }
 
-/// What the noise was taken out of, where that is asked for.
+/// The stack without its noise, where that is asked for.
 fn denoised(stack: &Stack, crop: &Crop, arguments: &Arguments) -> Result<Option<Stack>, Failure> {
     let filter = |on_page: &(dyn Fn() + Sync)| stack.denoised(crop, on_page);
     let denoised = (arguments.denoise).then(|| shown("taking noise out", crop, filter));
     denoised.transpose().map_err(failure)
 }
 
-/// What `work` on the pages of `crop` makes, with its progress shown.
+/// Result of `work` on the pages of `crop`, with its progress shown.
 fn shown<T>(what: &str, crop: &Crop, work: impl FnOnce(&(dyn Fn() + Sync)) -> T) -> T {
     let total = crop.dims()[2];
     let progress = Mutex::new(Progress::new(what));

@@ -74,7 +74,7 @@ fn numbers<const N: usize>(said: &str, word: &str) -> [f64; N] {
     std::array::from_fn(|_| found.next().unwrap())
 }
 
-/// What thresholds moved by the noise do is counted in the same noise; the median filter takes it out.
+/// The effect of thresholds moved by the noise is counted in the same noise; the median filter takes it out.
 #[test]
 fn phases_that_overlap_are_told_with_what_that_does() {
     let bench = bench();
